@@ -5,8 +5,8 @@ use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
 
 use crate::files::{Action, FileError};
 use crate::output::{CurveError, FigureError, RecordError};
-use crate::report::MODEL_FILE;
 use crate::scene::SceneError;
+use crate::text::report::MODEL_FILE;
 
 /// All entries of the catalogue of this crate.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {

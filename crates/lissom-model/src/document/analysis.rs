@@ -5,12 +5,12 @@ use lissom_core::settings::Controlled;
 use lissom_core::solver_features::DisabledFeatures;
 
 use super::entries::of_kind;
-use crate::context::Context;
-use crate::reader::Reader;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
 use crate::registry::{ChoiceEntry, Registry};
-use crate::report::{Located, Problem, Span};
 use crate::sweep::{TimeWindow, Window, WindowContext};
 use crate::text::Node;
+use crate::text::report::{Located, Problem, Span};
 
 /// Kind of analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -447,8 +447,10 @@ fn scheme_parameters(
                 .map(|entry| entry.name);
             let message = format!("the scheme `{}` has no parameter `{}`", scheme.value, parameter.name);
             let problem = Problem::error(node.span, message).also(scheme.span, "this scheme");
-            let help =
-                format!("it belongs to {}: remove it, or choose that scheme", crate::suggest::list(owners));
+            let help = format!(
+                "it belongs to {}: remove it, or choose that scheme",
+                crate::format::suggest::list(owners)
+            );
             reader.context.report(problem.help(help));
         }
     }

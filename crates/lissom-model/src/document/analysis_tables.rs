@@ -2,8 +2,8 @@
 
 use lissom_core::solver_features::WORDS;
 
-use super::top_level::Variant;
-use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
+use crate::format::keys::{Key, Shape, choice, of_parameter, optional, required};
+use crate::format::top_level::Variant;
 use crate::registry::{ChoiceEntry, Registry};
 
 /// The forms of `[analysis]`, by kind.

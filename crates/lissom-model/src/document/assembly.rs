@@ -4,10 +4,10 @@ use lissom_core::ports::Ports;
 use lissom_motion::Vector3;
 
 use super::initial::parts;
-use crate::context::Context;
-use crate::keys::{Key, Shape, optional};
-use crate::reader::Reader;
-use crate::report::{Located, Problem, Span};
+use crate::format::keys::{Key, Shape, optional};
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::report::{Located, Problem, Span};
 
 /// Gap that counts as closed, relative to the size of the model.
 pub const DEFAULT_ASSEMBLY_TOLERANCE: f64 = 1e-10;

@@ -2,10 +2,10 @@
 
 use super::NodeReference;
 use super::contacts::{ContactEntry, Restitution, number_or};
-use crate::keys::{Key, Shape, optional};
-use crate::reader::Reader;
-use crate::report::Located;
+use crate::format::keys::{Key, Shape, optional};
+use crate::reading::reader::Reader;
 use crate::text::Value;
+use crate::text::report::Located;
 
 /// Where a beam touches.
 #[derive(Clone, Copy, Debug, PartialEq)]

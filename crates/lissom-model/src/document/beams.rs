@@ -7,12 +7,12 @@ use lissom_motion::{Motion, Rotation, Vector3};
 use super::entries::each;
 use super::places::PlaceOrNode;
 use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station, Superelement, interface_name};
-use crate::context::Context;
 use crate::expression::Expression;
-use crate::keys::Shape;
+use crate::format::keys::Shape;
 use crate::line::Line;
-use crate::reader::Reader;
-use crate::report::{Located, Problem, Span};
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
 /// A beam whose ends have no positions yet.
@@ -229,8 +229,10 @@ fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String,
 fn circle(context: &Context<'_>, waiting: &[Draft]) {
     let Some(first) = waiting.first() else { return };
     let names: Vec<&str> = waiting.iter().map(|draft| draft.name.value.as_str()).collect();
-    let message =
-        format!("the ends of the beams {} refer to each other in a cycle", crate::suggest::list(names));
+    let message = format!(
+        "the ends of the beams {} refer to each other in a cycle",
+        crate::format::suggest::list(names)
+    );
     context.fail::<()>(first.name.span, message, "specify the ends of one of them as positions");
 }
 

@@ -7,11 +7,11 @@ use lissom_motion::{Matrix3, Rotation, Vector3};
 use super::entries::each;
 use super::solids::{shape, solid};
 use super::{Body, Plane, PointMass};
-use crate::context::Context;
-use crate::keys::Shape;
-use crate::line::are_parallel;
-use crate::reader::Reader;
-use crate::report::Located;
+use crate::format::keys::Shape;
+use crate::parts::body_axes;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::report::Located;
 use crate::text::{Node, Value};
 
 pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
@@ -89,39 +89,6 @@ pub(super) fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     }
     let around = reader.context.frame(reader.scope)?.rotation;
     Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })
-}
-
-/// Body axes as columns in the axes around the body, from a rotation vector or from the first two axes.
-pub(crate) fn body_axes(
-    context: &Context<'_>,
-    (rotation, axes): (Option<&Node>, Option<&Node>),
-    what: &str,
-) -> Option<Matrix3> {
-    let Some(node) = axes else {
-        let rotation = rotation.map(|node| context.vector(node, &format!("`rotation` of {what}")));
-        let rotation = rotation.map_or(Some(Vector3::zeros()), |vector| vector);
-        return Some(Rotation::exponential(&rotation?).matrix());
-    };
-    if rotation.is_some() {
-        let message = format!("{what} has both `rotation` and `axes`");
-        return context.fail(node.span, message, "remove one of them");
-    }
-    let what = format!("`axes` of {what}");
-    let list = context.list(node, 2, &what)?;
-    let first = context.own_direction(&list[0], &format!("the first of {what}"));
-    let second = context.own_direction(&list[1], &format!("the second of {what}"));
-    let (first, second) = (first?, second?);
-    if are_parallel(&first, &second) {
-        return context.fail(node.span, format!("{what} are parallel"), "specify two different directions");
-    }
-    let one = first.normalize();
-    let three = one.cross(&second).normalize();
-    let exact = one.dot(&second.normalize()).abs() < 1e-6;
-    if !exact {
-        let message = format!("{what} must be perpendicular to each other");
-        return context.fail(node.span, message, "specify the first and the second axis of the body");
-    }
-    Some(Matrix3::from_columns(&[one, three.cross(&one), three]))
 }
 
 /// The plane of the global axes that `plane` of the axes around the point mass is.

@@ -5,12 +5,12 @@ use lissom_core::registry::{Parameters, Value as Held};
 use super::connections::Places;
 use super::entries::each_of_kind;
 use super::{Component, assembly, ports};
-use crate::context::Context;
-use crate::keys::Shape;
-use crate::reader::Reader;
+use crate::format::keys::Shape;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
 use crate::registry::{KindEntry, Registry};
-use crate::report::Located;
 use crate::text::Value;
+use crate::text::report::Located;
 
 pub(super) fn read(
     context: &Context<'_>,

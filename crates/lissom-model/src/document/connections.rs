@@ -9,9 +9,9 @@ use super::{
     AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputKind,
     OutputSource, PointMass, Subject, Superelement, interface_name,
 };
-use crate::context::Context;
 use crate::line::Line;
-use crate::report::{Located, Problem};
+use crate::parts::context::Context;
+use crate::text::report::{Located, Problem};
 
 /// Where the nodes of the parts are.
 pub(super) struct Places {

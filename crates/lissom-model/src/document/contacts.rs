@@ -11,16 +11,15 @@ use super::entries::each;
 use super::ports::two_nodes;
 use super::rigid_contacts::{self, RigidEntry};
 use super::solids::shape;
-use super::tables::variants;
 use super::{Body, NodeReference, PointMass};
-use crate::context::Context;
-use crate::keys::{Key, Shape, optional, required};
-use crate::reader::Reader;
+use crate::format::keys::{Key, Shape, optional, required};
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
 use crate::registry::Registry;
-use crate::report::Located;
-use crate::solid::PlacedSolid;
-use crate::surface::Surface;
+use crate::solids::PlacedSolid;
+use crate::solids::surface::Surface;
 use crate::text::Value;
+use crate::text::report::Located;
 
 /// Smallest restitution of contacts that are not rigid.
 const LEAST_RESTITUTION: f64 = 0.01;
@@ -179,7 +178,7 @@ pub(super) fn ground(context: &Context<'_>) -> Option<Ground> {
     let Some((node, span)) = context.top("ground").filter(|(node, _)| node.table().is_some()) else {
         return Some(Ground::default());
     };
-    let keys = variants("ground", &Registry::default()).all.into_iter().next()?.keys;
+    let keys = (context.forms)("ground", &Registry::default()).all.into_iter().next()?.keys;
     let reader = Reader::open(context, node, ("[ground]".to_owned(), span), keys)?;
     shape(&reader, &Vector3::zeros()).map(|shape| Ground { surface: shape.surface, solids: shape.solids })
 }

@@ -8,18 +8,20 @@ use lissom_core::joints::generalized_coordinates::KIND as FREE;
 use lissom_motion::Vector3;
 
 use super::entries::PARTS;
-use super::top_level::{self, Holds};
+use super::tables::variants;
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, events, initial,
     local_loads, materials, outputs, signals, superelements,
 };
-use crate::context::{Context, singular};
 use crate::expression;
-use crate::library::Library;
+use crate::files::library::Library;
+use crate::format::suggest;
+use crate::format::top_level::singular;
+use crate::format::top_level::{self, Holds};
 use crate::parts;
+use crate::parts::context::Context;
 use crate::registry::Registry;
-use crate::report::{Problem, Report, Severity, Span};
-use crate::suggest;
+use crate::text::report::{Problem, Report, Severity, Span};
 use crate::text::{self, Node, Tree, Value};
 
 impl Document {
@@ -53,7 +55,7 @@ pub(crate) fn from_tree(tree: Tree, registry: &Registry) -> Result<Document, Rep
         return Err(Report::new(tree.problems, &tree.sources));
     }
     let model = parts::expand(tree).map_err(|(problems, sources)| Report::new(problems, &sources))?;
-    let context = Context::new(&model);
+    let context = Context::new(&model, variants);
     let document = decode(&context, registry);
     let problems = context.into_problems();
     if problems.iter().any(|problem| problem.severity == Severity::Error) {

@@ -3,10 +3,10 @@
 use lissom_motion::Rotation;
 
 use crate::expression::Formula;
-use crate::reader::Reader;
-use crate::report::{Problem, Span};
-use crate::suggest;
+use crate::format::suggest;
+use crate::reading::reader::Reader;
 use crate::text::Value;
+use crate::text::report::{Problem, Span};
 
 /// A force per length of a beam's reference line.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,12 @@
 //! The entries of a table, each opened in its form.
 
-use super::tables::variants;
-use super::top_level::Variants;
-use crate::context::{Context, singular};
-use crate::reader::Reader;
+use crate::format::top_level::Variants;
+use crate::format::top_level::singular;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
 use crate::registry::Registry;
-use crate::report::Span;
 use crate::text::Node;
+use crate::text::report::Span;
 
 /// Tables of parts.
 pub(super) const PARTS: [&str; 4] = ["beams", "bodies", "point_masses", "superelements"];
@@ -25,7 +25,7 @@ where
     if entries.is_empty() {
         return all;
     }
-    let Some(form) = variants(table, &Registry::default()).all.into_iter().next() else { return all };
+    let Some(form) = (context.forms)(table, &Registry::default()).all.into_iter().next() else { return all };
     for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));
         let reader = Reader::open(context, node, (words, span), form.keys.clone());
@@ -50,7 +50,7 @@ where
         return all;
     }
     // All forms of a table are built once for its entries: they take longer than an entry.
-    let forms = variants(table, registry);
+    let forms = (context.forms)(table, registry);
     for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));
         all.extend(
@@ -68,7 +68,7 @@ pub(super) fn of_kind<'c, 'a>(
     (node, words, span): (&'c Node, String, Span),
     registry: &Registry,
 ) -> Option<(Reader<'c, 'a>, &'static str)> {
-    of_form(context, &variants(table, registry), (node, words, span))
+    of_form(context, &(context.forms)(table, registry), (node, words, span))
 }
 
 /// Opens a table that has one of `forms`.
@@ -77,7 +77,7 @@ fn of_form<'c, 'a>(
     forms: &Variants,
     (node, words, span): (&'c Node, String, Span),
 ) -> Option<(Reader<'c, 'a>, &'static str)> {
-    let chosen = crate::reader::tag(context, node, forms.tag?, &forms.words(), (&words, span))?;
+    let chosen = crate::reading::reader::tag(context, node, forms.tag?, &forms.words(), (&words, span))?;
     let form = forms.all.iter().find(|form| form.word == chosen.value)?;
     let reader = Reader::open(context, node, (words, span), form.keys.clone())?;
     Some((reader, form.word))

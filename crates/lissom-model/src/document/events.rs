@@ -4,12 +4,12 @@ use lissom_core::signals::event::Direction;
 
 use super::analysis::{Analysis, AnalysisKind};
 use super::entries::each;
-use crate::context::Context;
 use crate::expression::Formula;
-use crate::keys::{Key, Shape, choice, optional, required};
-use crate::report::{Located, Span};
-use crate::suggest;
+use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::suggest;
+use crate::parts::context::Context;
 use crate::text::Value;
+use crate::text::report::{Located, Span};
 
 /// Something that happens when an expression passes through zero.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use lissom_motion::Vector3;
 
-use super::{InitialMotion, part_tables};
-use crate::context::Context;
-use crate::reader::Reader;
-use crate::report::{Problem, Span};
-use crate::suggest;
+use super::InitialMotion;
+use crate::format::part_tables;
+use crate::format::suggest;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::report::{Problem, Span};
 use crate::text::{Node, Value, in_order};
 
 /// Tables whose entries move.

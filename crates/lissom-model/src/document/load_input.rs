@@ -5,7 +5,7 @@ use lissom_core::registry::{ParameterType, Value};
 
 use super::Document;
 use crate::expression::Formula;
-use crate::report::Located;
+use crate::text::report::Located;
 
 impl Document {
     /// The same model with a load's size a new input, which is last among the inputs; none where no load is called so.

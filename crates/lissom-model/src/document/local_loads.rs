@@ -11,16 +11,16 @@ use lissom_motion::{Motion, Vector3};
 
 use super::NodeReference;
 use super::entries::each;
-use super::part_tables::placed_in;
-use crate::context::Context;
 use crate::expression::{self, Formula};
-use crate::keys::{Key, Shape, choice, optional, required};
-use crate::local_tables::local_table_keys;
-use crate::parts::ScopeId;
-use crate::reader::Reader;
-use crate::report::{Located, Problem, Span};
-use crate::suggest;
-use crate::table_family::TableFamily;
+use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::part_tables::placed_in;
+use crate::format::suggest;
+use crate::functions::table_family::TableFamily;
+use crate::parts::context::Context;
+use crate::reading::local_tables::local_table_keys;
+use crate::reading::reader::Reader;
+use crate::text::ScopeId;
+use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
 /// Axes of a load.

@@ -4,15 +4,15 @@ use lissom_motion::{Matrix3, Matrix6, Vector3};
 
 use super::entries::{each, each_of_kind};
 use super::{Material, Section};
-use crate::context::Context;
-use crate::keys::Shape as Holds;
-use crate::reader::Reader;
+use crate::format::keys::Shape as Holds;
+use crate::format::suggest;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
 use crate::registry::Registry;
-use crate::report::{Located, Problem};
-use crate::scene::Outline;
+use crate::sections::Outline;
 use crate::sections::{self, Isotropic, SectionKind, SectionProperties, Shear, ShearTheory, mass_matrix};
-use crate::suggest;
 use crate::text::Value;
+use crate::text::report::{Located, Problem};
 
 /// Square of the speed of sound below which a material is hardly a solid [m²/s²]: soft rubber has 60, steel with E in MPa 27.
 const SOFTEST: f64 = 30.0;
@@ -88,7 +88,7 @@ pub(super) fn sections(context: &Context<'_>, registry: &Registry, materials: &[
             homogeneous(reader, kind, materials)?
         } else {
             let properties = general(reader)?;
-            (Outline::of_mass(&properties), properties)
+            (Outline::of_mass(&properties.mass), properties)
         };
         let properties =
             SectionProperties { damping: damping.map_or(0.0, |damping| damping.value), ..properties };

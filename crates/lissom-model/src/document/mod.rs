@@ -18,9 +18,8 @@ mod initial;
 mod load_input;
 mod local_loads;
 mod materials;
-mod output_kinds;
+pub(crate) mod model_text;
 mod outputs;
-pub(crate) mod part_tables;
 mod places;
 mod ports;
 mod rigid_contacts;
@@ -28,7 +27,6 @@ mod signals;
 mod solids;
 mod superelements;
 pub(crate) mod tables;
-pub(crate) mod top_level;
 mod unloaded;
 
 use std::collections::BTreeMap;
@@ -42,14 +40,17 @@ use nalgebra::DMatrix;
 
 use crate::expression::{Expression, Formula};
 use crate::line::Line;
-use crate::report::{Located, Problem, Report, Sources, Span};
-use crate::scene::Outline;
+use crate::sections::Outline;
 use crate::sections::{Isotropic, SectionProperties};
-use crate::solid::PlacedSolid;
-use crate::surface::Surface;
+use crate::solids::PlacedSolid;
+use crate::solids::surface::Surface;
+use crate::text::report::{Located, Problem, Report, Sources, Span};
 
-pub(crate) use bodies::body_axes;
-
+pub use crate::format::top_level::VERSION;
+pub use crate::outputs::entry::{Output, OutputSource, ReactionAxes};
+pub use crate::outputs::kinds::OutputKind;
+pub(crate) use crate::outputs::kinds::{Feature, Subject};
+pub use crate::reading::node_reference::{NodeReference, interface_name};
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use beam_contacts::{BeamSides, Touching};
@@ -57,12 +58,8 @@ pub use contacts::{ContactEntry, Ground, Restitution};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
-pub use output_kinds::OutputKind;
-pub(crate) use output_kinds::{Declaration, Feature, Feeds, OutputComponent, Subject};
-pub use outputs::{Output, OutputSource, ReactionAxes};
 pub use rigid_contacts::RigidEntry;
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
-pub use top_level::VERSION;
 
 /// A model as it was written, checked.
 ///
@@ -370,36 +367,6 @@ pub struct Interface {
     pub name: String,
     /// Position in the axes of the part [m].
     pub place: Vector3,
-}
-
-/// Name of an interface's node in the whole model.
-pub fn interface_name(superelement: &str, interface: &str) -> String {
-    format!("{superelement}.{interface}")
-}
-
-/// A node of the model, by name.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NodeReference {
-    /// The fixed frame.
-    Ground,
-    /// The reference frame of a body.
-    Body(String),
-    /// A point mass.
-    PointMass(String),
-    /// A position along a beam.
-    Beam {
-        /// Name of the beam.
-        beam: String,
-        /// Fraction: 0 for its start, 1 for its end.
-        fraction: f64,
-    },
-    /// An interface of a superelement.
-    Interface {
-        /// Name of the superelement.
-        superelement: String,
-        /// Name of the interface within it.
-        interface: String,
-    },
 }
 
 /// A joint, with the word of one of its coordinates, or with all of them.

@@ -4,12 +4,12 @@ use lissom_motion::Vector3;
 
 use super::NodeReference;
 use super::entries::PARTS;
-use crate::context::Context;
-use crate::parts::ScopeId;
-use crate::report::{Located, Problem, Span};
-use crate::suggest;
+use crate::format::suggest;
+use crate::parts::context::Context;
 use crate::text::Node;
+use crate::text::ScopeId;
 use crate::text::Value;
+use crate::text::report::{Located, Problem, Span};
 
 /// A position, or a node that has one.
 #[derive(Clone, Debug)]

@@ -6,13 +6,13 @@ use lissom_motion::Vector3;
 
 use super::connections::Places;
 use super::{Attachment, CoordinateName, NodeLocation, NodeReference};
-use crate::context::Context;
 use crate::expression::Formula;
-use crate::keys::Shape;
+use crate::format::keys::Shape;
 use crate::line::are_parallel;
-use crate::parts::ScopeId;
-use crate::reader::Reader;
-use crate::report::{Located, Problem};
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::ScopeId;
+use crate::text::report::{Located, Problem};
 use crate::text::{Node, Value};
 
 /// What the entry called `name` is attached to; `formula` is the expression that names coordinates, if there is one. None if

@@ -2,8 +2,8 @@
 
 use super::NodeReference;
 use super::contacts::{ContactEntry, Restitution, number_or};
-use crate::reader::Reader;
-use crate::report::Located;
+use crate::reading::reader::Reader;
+use crate::text::report::Located;
 
 /// Keys that describe a deformation.
 const OF_DEFORMATION: [&str; 11] = [

@@ -5,14 +5,15 @@ use std::collections::BTreeMap;
 use lissom_core::signals::MAX_ARGUMENTS;
 
 use super::entries::each;
-use crate::context::{Context, singular};
 use crate::expression::{self, Formula};
-use crate::keys::Shape;
-use crate::parts::ROOT;
-use crate::reader::Reader;
-use crate::report::{Located, Problem, Span};
-use crate::table::{Extrapolation, Table};
-use crate::table_values::table_key_in;
+use crate::format::keys::Shape;
+use crate::format::top_level::singular;
+use crate::functions::table::{Extrapolation, Table};
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::reading::table_values::table_key_in;
+use crate::text::ROOT;
+use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
 /// A named expression.

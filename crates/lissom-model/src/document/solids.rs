@@ -6,12 +6,12 @@ use lissom_core::contact::curves::Spline;
 use lissom_core::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Motion, Rotation, Vector3};
 
-use crate::keys::{Key, Shape};
-use crate::library::joined;
-use crate::reader::Reader;
-use crate::report::Problem;
-use crate::solid::{Form, PlacedSolid, Solid};
-use crate::surface::Surface;
+use crate::files::library::joined;
+use crate::format::keys::{Key, Shape};
+use crate::reading::reader::Reader;
+use crate::solids::surface::Surface;
+use crate::solids::{Form, PlacedSolid, Solid};
+use crate::text::report::Problem;
 use crate::text::{Node, Value};
 
 /// Kinds of solids with their dimensions.

@@ -9,14 +9,14 @@ use nalgebra::DMatrix;
 use super::bodies::{axes, position};
 use super::entries::each;
 use super::{Interface, Superelement};
-use crate::context::Context;
-use crate::keys::Shape;
-use crate::library::joined;
-use crate::matrix_file;
-use crate::reader::Reader;
-use crate::report::{Located, Problem};
-use crate::suggest;
+use crate::files::library::joined;
+use crate::files::matrix_file;
+use crate::format::keys::Shape;
+use crate::format::suggest;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
 use crate::text::Value;
+use crate::text::report::{Located, Problem};
 
 pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
     each(context, "superelements", |reader, name| {

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use super::analysis_tables::analyses;
-use super::output_kinds::{Feature, OutputKind, Subject};
-use super::part_tables::{initial, part, placed_in, superelement};
-use super::top_level::{Variant, Variants};
-use crate::keys::{Key, Shape, choice, of_parameter, of_port, optional, required};
+use crate::format::keys::{Key, Shape, choice, of_parameter, of_port, optional, required};
+use crate::format::part_tables::{initial, part, placed_in, superelement};
+use crate::format::top_level::{Variant, Variants};
+use crate::outputs::kinds::{Feature, OutputKind, Subject};
 use crate::registry::{KindEntry, Registry};
 use crate::sections::{GENERAL, KINDS, NAMES};
 

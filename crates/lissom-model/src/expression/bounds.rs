@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use lissom_core::law::{EVERYTHING, Interval, hull, inverse, product, square, sum};
 
-use super::Function;
+use super::jet::Function;
 use super::number::Number;
 
 const TRUTH: Interval = [0.0, 1.0];

@@ -3,8 +3,9 @@
 use lissom_core::kinematics::Switch;
 use lissom_core::kinematics::switch::level_of_side;
 
+use super::jet::Function;
 use super::number::Point;
-use super::{Function, STACK, Step};
+use super::program::{STACK, Step};
 
 /// a + b x, or none for what is no straight line.
 pub(crate) type Line = Option<(f64, f64)>;

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::error::ExpressionError;
 use super::formula::Name;
+use super::jet::{self, Function};
+use super::program::{STACK, Step, run};
 use super::token::{Placed, Token, tokens};
-use super::{ExpressionError, Function, STACK, Step, jet, run};
-use crate::{suggest, synonyms};
+use crate::format::{suggest, synonyms};
 
 /// Nesting that is still read; deeper texts are machine-made.
 const DEPTH: usize = 100;

@@ -2,7 +2,7 @@
 
 use lissom_core::law::{EVERYTHING, Enclosure, Interval};
 
-use super::Function;
+use super::jet::Function;
 use super::number::Number;
 
 /// What has a kink or a jump somewhere in its interval.

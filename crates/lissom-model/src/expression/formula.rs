@@ -9,8 +9,11 @@ use lissom_core::signals::SignalFunction;
 
 use super::breakpoints::{Course, Line};
 use super::compile::{compile, fold};
+use super::error::ExpressionError;
+use super::jet::{Function, Jet};
+use super::program::{Step, run, run_continued};
 use super::smoothness::{self, Kink};
-use super::{Expression, ExpressionError, Function, Jet, Step, breakpoints, run, run_continued};
+use super::{Expression, breakpoints};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]

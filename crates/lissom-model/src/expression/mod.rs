@@ -7,57 +7,27 @@ mod bounds;
 mod breakpoints;
 mod compile;
 mod enclosure;
+mod error;
 mod formula;
 mod jet;
 mod number;
 mod over_time;
+mod program;
 mod smoothness;
 mod token;
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use lissom_core::kinematics::Switch;
 use lissom_core::law::{EVERYTHING, Enclosure};
 
 pub(crate) use breakpoints::Line;
+pub use error::ExpressionError;
 pub use formula::{Formula, Name};
 pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
-use number::{Number, Point};
 pub(crate) use over_time::OverTime;
+use program::{Step, run};
 pub(crate) use smoothness::Kink;
-
-/// Depth of the stack an expression may need.
-const STACK: usize = 32;
-
-/// An expression that cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{message}")]
-pub struct ExpressionError {
-    /// One sentence.
-    pub message: String,
-    /// A remedy.
-    pub help: Option<String>,
-    /// The offending bytes of the expression.
-    pub range: Range<usize>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Step {
-    Constant(f64),
-    Variable,
-    Argument(usize),
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
-    Negate,
-    Call(Function),
-    Call2(Function),
-    Call3(Function),
-}
 
 /// A compiled expression of one variable.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,83 +90,6 @@ impl Expression {
     /// Value and derivatives at `x`.
     pub fn jet(&self, x: f64) -> Jet {
         run(&self.steps, Jet::variable(x), |_| Jet::constant(0.0))
-    }
-}
-
-/// What steps leave, for a variable and arguments.
-fn run<N: Number>(steps: &[Step], variable: N, argument: impl Fn(usize) -> N) -> N {
-    run_with(steps, variable, argument, |_, _| None)
-}
-
-/// The same with functions continued from known `sides` of their switches, in the order of the switches; none for all by
-/// their arguments. Passes the switching functions to `visit`.
-fn run_continued<N: Point>(
-    steps: &[Step],
-    variable: N,
-    argument: impl Fn(usize) -> N,
-    sides: &[f64],
-    mut visit: impl FnMut(Switch),
-) -> N {
-    let mut next = 0;
-    run_with(steps, variable, argument, |function, arguments| {
-        let first = next;
-        next += breakpoints::switch_count(function);
-        let own = sides.get(first..next).unwrap_or_default();
-        breakpoints::switches(function, arguments.map(N::value), own, &mut visit);
-        breakpoints::continued(function, own, arguments)
-    })
-}
-
-/// The same, with functions that are `replaced` by other values.
-#[inline]
-fn run_with<N: Number>(
-    steps: &[Step],
-    variable: N,
-    argument: impl Fn(usize) -> N,
-    mut replaced: impl FnMut(Function, [N; 3]) -> Option<N>,
-) -> N {
-    let mut stack = [N::constant(0.0); STACK];
-    let mut top = 0;
-    for step in steps {
-        match *step {
-            Step::Constant(value) => stack[top] = N::constant(value),
-            Step::Variable => stack[top] = variable,
-            Step::Argument(index) => stack[top] = argument(index),
-            Step::Negate => stack[top - 1] = stack[top - 1].scaled(-1.0),
-            Step::Call(function) => {
-                let own = stack[top - 1];
-                stack[top - 1] = replaced(function, [own; 3]).unwrap_or_else(|| own.of(function));
-            }
-            Step::Add => stack[top - 2] = stack[top - 2].plus(stack[top - 1]),
-            Step::Subtract => stack[top - 2] = stack[top - 2].minus(stack[top - 1]),
-            Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
-            Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
-            Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
-            Step::Call2(function) => {
-                let (one, other) = (stack[top - 2], stack[top - 1]);
-                stack[top - 2] =
-                    replaced(function, [one, other, other]).unwrap_or_else(|| one.of_two(function, other));
-            }
-            Step::Call3(function) => {
-                let [one, other, third] = [stack[top - 3], stack[top - 2], stack[top - 1]];
-                stack[top - 3] = replaced(function, [one, other, third])
-                    .unwrap_or_else(|| one.of_three(function, other, third));
-            }
-        }
-        top = top + 1 - step.operands();
-    }
-    stack[0]
-}
-
-impl Step {
-    /// Values it takes from the stack; it leaves one.
-    fn operands(self) -> usize {
-        match self {
-            Step::Constant(_) | Step::Variable | Step::Argument(_) => 0,
-            Step::Negate | Step::Call(_) => 1,
-            Step::Call3(_) => 3,
-            _ => 2,
-        }
     }
 }
 

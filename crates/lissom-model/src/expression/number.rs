@@ -1,6 +1,6 @@
 //! What a compiled expression computes with: numbers, jets, intervals, or enclosures of a function over an interval.
 
-use super::Function;
+use super::jet::Function;
 
 /// Operations of an expression.
 pub(super) trait Number: Copy {

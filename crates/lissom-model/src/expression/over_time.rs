@@ -5,8 +5,8 @@ use lissom_core::kinematics::Switch;
 use lissom_core::law::{Enclosure, Interval};
 use lissom_core::signals::SignalFunction;
 
-use super::Formula;
 use super::breakpoints::{Course, Line};
+use super::formula::Formula;
 
 /// A formula, and what is known of it over time.
 #[derive(Debug)]

@@ -3,7 +3,8 @@
 //! zeros value and gradient are compared, continued from both sides. Functions that switch but are smooth there pass, such as
 //! `max(0, x)^3`.
 
-use super::{Function, Jet, Step, run_continued};
+use super::jet::{Function, Jet};
+use super::program::{Step, run_continued};
 
 /// Lines begin at distances from the origin of these powers of ten.
 const DECADES: std::ops::RangeInclusive<i32> = -6..=6;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::ExpressionError;
+use super::error::ExpressionError;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token<'t> {

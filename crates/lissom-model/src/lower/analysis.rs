@@ -8,7 +8,7 @@ use lissom_core::settings::{Controlled, StepControl};
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Analysis, AnalysisKind, Document, Scaling, StepChoice};
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// From when to when, in how many steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

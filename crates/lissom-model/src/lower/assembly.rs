@@ -7,7 +7,7 @@ use lissom_motion::Motion;
 
 use super::names::Names;
 use crate::document::{AssemblyRequest, Document};
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// Displacements below this fraction of the model's size, and turns below this angle [rad], are round-off.
 const NOTHING: f64 = 1e-12;

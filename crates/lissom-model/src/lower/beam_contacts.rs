@@ -19,11 +19,11 @@ use lissom_motion::Vector3;
 
 use super::contacts::{solids, surface, words};
 use super::names::Names;
-use crate::contact_point::ContactPoint;
 use crate::document::{BeamSides, ContactEntry, Document, Restitution, Touching};
-use crate::report::Problem;
-use crate::scene::Outline;
-use crate::solid::{Form, PlacedSolid, Solid};
+use crate::outputs::contact_point::ContactPoint;
+use crate::sections::Outline;
+use crate::solids::{Form, PlacedSolid, Solid};
+use crate::text::report::Problem;
 
 /// Parts of an interval between points whose chords make up its length.
 const CHORDS: usize = 8;

@@ -15,7 +15,7 @@ use super::order::by_name;
 use super::ports;
 use crate::document::{Component, Document, NodeLocation, OnTip};
 use crate::functions::Ramp;
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// Adds all connections: joints between nodes first, then drives of their coordinates, then relations between them.
 pub(super) fn add(

@@ -21,10 +21,11 @@ use nalgebra::Vector2;
 use super::Lowered;
 use super::names::Names;
 use super::straight_line::Line;
-use crate::contact_point::ContactPoint;
-use crate::document::{ContactEntry, Document, NodeLocation, NodeReference, Restitution};
-use crate::report::Problem;
-use crate::solid::{Form, PlacedSolid, Solid};
+use crate::document::{ContactEntry, Document, NodeLocation, Restitution};
+use crate::outputs::contact_point::ContactPoint;
+use crate::reading::node_reference::NodeReference;
+use crate::solids::{Form, PlacedSolid, Solid};
+use crate::text::report::Problem;
 
 /// Radius of the edges of boxes where boxes touch each other, of the shortest side: edges that cross then have a direction between
 /// them.

@@ -15,8 +15,8 @@ use super::names::Names;
 use super::signals::relative_components;
 use crate::document::{Component, Document};
 use crate::expression::{Formula, Kink, Name};
-use crate::report::{Located, Problem};
-use crate::suggest;
+use crate::format::suggest;
+use crate::text::report::{Located, Problem};
 
 /// Value of an equation at the start that is round-off of given numbers [m, rad].
 const SAME_PLACE: f64 = 1e-6;

@@ -8,7 +8,7 @@ use lissom_core::system::Builder;
 use super::names::Names;
 use super::signals::{Reader, of_entry, signals_named};
 use crate::document::{AnalysisKind, DelayEntry, Document, SignalEntry};
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// Maximum number of parts of a step of one size that is longer than a delay.
 const MAX_PARTS: f64 = 1e3;

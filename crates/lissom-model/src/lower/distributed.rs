@@ -20,7 +20,7 @@ use lissom_motion::Vector3;
 
 use crate::document::{Beam, DistributedForce, Document};
 use crate::functions::{Ramp, of_expression};
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// Instants of the analysis at which a force must be finite.
 const INSTANTS: u32 = 16;

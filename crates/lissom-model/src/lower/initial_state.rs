@@ -7,7 +7,7 @@ use lissom_core::settings::Settings;
 use lissom_core::system::{Drive, State, System};
 
 use crate::document::{AnalysisKind, Component, Document};
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// Difference at the start that is round-off of given numbers [m, rad].
 const SAME_PLACE: f64 = 1e-6;

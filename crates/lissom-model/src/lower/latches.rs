@@ -13,7 +13,7 @@ use lissom_core::system::Builder;
 use super::names::Names;
 use super::straight_line::Line;
 use crate::document::{Component, Document};
-use crate::report::Problem;
+use crate::text::report::Problem;
 
 /// Adds the latch of a joint that has one.
 pub(super) fn add(

@@ -13,10 +13,11 @@ use lissom_motion::Motion;
 use super::distributed;
 use super::names::Names;
 use super::over_argument::OverArgument;
-use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName, NodeReference};
+use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
-use crate::report::{Located, Problem};
+use crate::reading::node_reference::NodeReference;
+use crate::text::report::{Located, Problem};
 
 /// Adds a load, and returns its elements.
 pub(super) fn add(

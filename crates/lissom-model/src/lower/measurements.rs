@@ -8,12 +8,15 @@ use lissom_core::system::element_quantity::Of;
 
 use super::names::{LaterMeasurement, Names};
 use super::signals::relative_components;
-use crate::channel_components::{component_position, components};
-use crate::document::{Component, Document, Feeds, Output, OutputKind, OutputSource};
+use crate::document::{Component, Document};
+use crate::format::suggest;
+use crate::output::component::component_position;
+use crate::outputs::channel_components::components;
+use crate::outputs::entry::{Output, OutputSource};
+use crate::outputs::kinds::{Feeds, OutputKind};
 use crate::outputs::spring::components_of;
 use crate::outputs::{Build, Subjects, all_components};
-use crate::report::Problem;
-use crate::suggest;
+use crate::text::report::Problem;
 
 /// Why a name cannot be measured.
 pub(super) struct Fault {

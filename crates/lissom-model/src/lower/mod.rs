@@ -15,6 +15,7 @@ mod local_loads;
 mod measurements;
 mod names;
 mod order;
+mod output_channels;
 mod over_argument;
 mod parts;
 mod ports;
@@ -40,16 +41,16 @@ use lissom_motion::Motion;
 
 pub use contacts::FrictionPoints;
 
-use crate::channels::Channel;
-use crate::document::{
-    DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output, OutputSource, Subject,
-};
+use crate::document::{DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document};
 use crate::functions::Ramp;
-use crate::output_channels;
+use crate::outputs::channels::Channel;
+use crate::outputs::entry::{Output, OutputSource};
+use crate::outputs::kinds::Subject;
 use crate::outputs::reaction::REACTION;
 use crate::outputs::section::SECTION_MOMENT;
-use crate::report::{Located, Problem, Report};
+use crate::reading::node_reference::NodeReference;
 use crate::sweep::TimeWindow;
+use crate::text::report::{Located, Problem, Report};
 
 pub use analysis::{Plan, Records};
 pub use assembly::{Assembly, Brought, MovedPart};

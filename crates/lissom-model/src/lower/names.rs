@@ -9,10 +9,11 @@ use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
 use lissom_core::system::ElementId;
 
-use crate::contact_point::{ContactPoint, RigidPoint};
-use crate::document::{Component, NodeReference, interface_name};
+use crate::document::Component;
+use crate::outputs::contact_point::{ContactPoint, RigidPoint};
 use crate::outputs::{Deformed, Resolver};
-use crate::report::{Located, Problem, Span};
+use crate::reading::node_reference::{NodeReference, interface_name};
+use crate::text::report::{Located, Problem, Span};
 
 /// A measurement of an element that a signal names before the element is added.
 #[derive(Clone)]

@@ -5,7 +5,7 @@ use lissom_core::registry::ForceFunction;
 use lissom_core::signals::SignalFunction;
 
 use crate::expression::Line;
-use crate::table_family::TableFamily;
+use crate::functions::table_family::TableFamily;
 
 /// A table over its argument, or tables over its first for values of its second.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ fn second(arguments: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{Extrapolation, Interpolation, Table};
+    use crate::functions::table::{Extrapolation, Interpolation, Table};
 
     #[test]
     fn rows_are_breakpoints_where_the_argument_is_a_line_of_time() {

@@ -9,8 +9,9 @@ use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw}
 
 use super::names::Names;
 use super::order::by_name;
-use crate::document::{Beam, Document, InitialMotion, NodeReference, Plane};
-use crate::report::{Located, Problem};
+use crate::document::{Beam, Document, InitialMotion, Plane};
+use crate::reading::node_reference::NodeReference;
+use crate::text::report::{Located, Problem};
 
 /// Adds all parts to the system.
 pub(super) fn add(

@@ -10,7 +10,7 @@ use lissom_motion::Vector3;
 
 use super::names::{Names, parameter_problem};
 use crate::document::{Beam, Component, CoordinateName, Document};
-use crate::report::{Located, Problem};
+use crate::text::report::{Located, Problem};
 
 /// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: the line through their nodes is smooth.
 const SMOOTH: f64 = 0.999_39;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use lissom_core::system::{Quantity, Reading, State, System};
 
 use super::names::NamedReading;
-use crate::channel_components::component_position;
-use crate::channels::Channel;
-use crate::report::Problem;
-use crate::suggest;
+use crate::format::suggest;
+use crate::output::component::component_position;
+use crate::outputs::channels::Channel;
+use crate::text::report::Problem;
 
 /// A component of a channel.
 struct ChannelQuantity {

@@ -6,8 +6,8 @@ use lissom_core::errors::Warning;
 use lissom_core::kinematics::Subject;
 use lissom_core::system::{State, System};
 
-use crate::channels::Channel;
-use crate::document::OutputKind;
+use crate::outputs::channels::Channel;
+use crate::outputs::kinds::OutputKind;
 
 /// Changes below this fraction of the largest multiplier added are round-off.
 const ROUND_OFF: f64 = 1e-6;

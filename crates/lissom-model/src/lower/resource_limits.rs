@@ -3,7 +3,7 @@
 
 use crate::document::{AnalysisKind, Document};
 use crate::files;
-use crate::report::{Problem, Report};
+use crate::text::report::{Problem, Report};
 
 /// Memory of a node of a beam with its elements, its tangent, its factors and the motion of the run [bytes]: lines of
 /// 10⁴ and 3·10⁴ elements need 53 kB (Radau IIA) to 79 kB (generalized-α) for each node at most.

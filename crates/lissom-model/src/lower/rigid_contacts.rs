@@ -13,9 +13,9 @@ use lissom_core::system::Builder;
 use super::contacts::{SolidPair, solid_pairs};
 use super::names::Names;
 use super::straight_line::Line;
-use crate::contact_point::RigidPoint;
 use crate::document::{ContactEntry, Document, RigidEntry};
-use crate::report::Problem;
+use crate::outputs::contact_point::RigidPoint;
+use crate::text::report::Problem;
 
 /// Adds a rigid contact.
 pub(super) fn add(

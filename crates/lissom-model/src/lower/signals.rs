@@ -16,12 +16,13 @@ use super::measurements::{Fault, Measured, measure};
 use super::names::{LaterMeasurement, NamedReading, Names};
 use super::order::by_name;
 use super::over_argument::OverArgument;
-use crate::channel_components::coordinate_components;
-use crate::document::{Document, EventEntry, Output, OutputSource, SignalEntry};
+use crate::document::{Document, EventEntry, SignalEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
+use crate::format::suggest;
+use crate::outputs::channel_components::coordinate_components;
+use crate::outputs::entry::{Output, OutputSource};
 use crate::parts::PREVIOUS_SAMPLE;
-use crate::report::{Located, Problem};
-use crate::suggest;
+use crate::text::report::{Located, Problem};
 
 /// Adds all inputs, signals and states.
 pub(super) fn add(

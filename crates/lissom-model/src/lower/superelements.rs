@@ -9,9 +9,10 @@ use lissom_motion::{Motion, Rotation};
 
 use super::names::Names;
 use super::order::by_name;
-use crate::document::{Document, interface_name};
+use crate::document::Document;
 use crate::outputs::Deformed;
-use crate::report::Problem;
+use crate::reading::node_reference::interface_name;
+use crate::text::report::Problem;
 
 /// Adds all superelements to the system.
 pub(super) fn add(

@@ -1,11 +1,11 @@
 //! Output of results: columns of numbers over time, to tables, summaries and plots. Independent of mechanics.
 
 mod bode;
+pub(crate) mod component;
 mod csv;
 mod curve_record;
 mod curves;
 mod log_plot;
-mod matrix_market;
 mod plot;
 mod record;
 mod spectrum;
@@ -14,20 +14,22 @@ mod sweep_plot;
 
 use std::io;
 
+use component::component_position;
+
+pub use crate::files::matrix_market::{full_matrix, sparse_matrix};
+pub use crate::text::number::number_text;
 pub use bode::BodePlot;
-pub use csv::{CsvWriter, number_text, quoted};
+pub use csv::{CsvWriter, quoted};
 pub use curve_record::CurveRecord;
 pub use curves::{CurveError, Over, Plots, Source, plots};
 pub use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, DrawingError, Mark, Panel, Shade, animation};
 pub use log_plot::LogFigure;
-pub use matrix_market::{full_matrix, sparse_matrix};
 pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves};
 pub use record::{Record, RecordError};
 pub use spectrum::Spectrum;
 pub use summary::Summary;
 pub use sweep_plot::{SweepAxis, SweepPlot};
 
-use crate::channel_components::component_position;
 use crate::sweep::Fatigue;
 
 /// Content of a column of results.

@@ -10,8 +10,9 @@ use lissom_motion::{Rotation, Vector3};
 use super::frames::{carried_frame, location_of};
 use super::location::Location;
 use super::{Build, Subjects};
-use crate::document::{Declaration, Feature, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const ANGLE: Declaration = Declaration {

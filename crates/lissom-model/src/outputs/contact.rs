@@ -9,8 +9,9 @@ use super::derivatives::of_local;
 use super::frames::name_of;
 use super::reaction::multipliers;
 use super::{Build, Evaluation, Found, OutputQuantity, SOLUTION, Subjects};
-use crate::document::{Declaration, Feature, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const CONTACT: Declaration = Declaration {

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use super::differences::Touched;
 use super::frames::name_of;
 use super::rigid_contact_force::RigidContactForce;
+use super::touched::Touched;
 use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
-use crate::contact_point::ContactPoint;
-use crate::document::{Declaration, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::contact_point::ContactPoint;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Subject};
+use crate::text::report::Problem;
 use lissom_core::elements::Unknowns;
 use lissom_core::system::System;
 use lissom_motion::Vector3;

@@ -4,44 +4,11 @@ use std::collections::BTreeMap;
 
 use lissom_core::kinematics::local_derivatives::LocalDerivatives;
 use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, MeasurementId, NodeId};
-use lissom_core::linearized::{LinearModel, OutputDerivatives};
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Gradient};
+use lissom_core::system::System;
 use lissom_core::system::energy_derivatives::Slopes;
-use lissom_core::system::{State, System};
-
-use super::Evaluation;
-use crate::channels::Channel;
-
-impl Channel {
-    /// Derivatives of its components at the state of `model`, in its unknowns; none of accumulated numbers.
-    pub fn derivatives(&self, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
-        let state = State {
-            kinematics: model.kinematics().clone(),
-            multipliers: model.multipliers().to_vec(),
-            violations: Vec::new(),
-            algorithmic: Vec::new(),
-            time_remainder: 0.0,
-            position_remainders: Vec::new(),
-            accumulated: Vec::new(),
-        };
-        let found = self.derivatives_at(model.system(), &state, model.length())?;
-        Some(found.into_iter().map(|output| model.along_departures(output)).collect())
-    }
-
-    /// Derivatives of its components by positions, velocities, accelerations, multipliers and held values at a state; exact
-    /// where there are formulas, otherwise by differences. `length` [m] is of the size of the model.
-    pub fn derivatives_at(
-        &self,
-        system: &System,
-        state: &State,
-        length: f64,
-    ) -> Option<Vec<OutputDerivatives>> {
-        let at = Evaluation { system, state };
-        let by_differences = || super::differences::of(self, &at, length);
-        self.quantity.derivatives(&at, length).or_else(by_differences)
-    }
-}
 
 /// Row of a multiplier.
 pub(super) fn multiplier_row(system: &System, multiplier: usize) -> usize {

@@ -5,30 +5,23 @@
 //! f' ≈ (3/4 (f₁ - f₋₁) - 3/20 (f₂ - f₋₂) + 1/60 (f₃ - f₋₃)) / h
 //! ```
 
-use std::collections::BTreeSet;
 use std::ops::Bound;
 
-use lissom_core::kinematics::{CoordinateId, GROUND, LOCKED, NodeId};
+use lissom_core::kinematics::{GROUND, LOCKED, NodeId};
 use lissom_core::linearized::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
 use super::Evaluation;
 use super::derivatives::add;
-use crate::channels::Channel;
+use super::touched::Touched;
+use crate::outputs::channels::Channel;
 
 /// Angle, and part of a length, by which positions are moved, and part of the units of velocities: far above round-off, and its sixth
 /// power far below.
 const APART: f64 = 2e-3;
 /// Weights of the differences.
 const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
-
-/// The unknowns a quantity depends on.
-#[derive(Default)]
-pub(crate) struct Touched {
-    pub(super) nodes: BTreeSet<NodeId>,
-    pub(super) coordinates: BTreeSet<CoordinateId>,
-}
 
 /// Derivatives of a channel by differences; none where it does not state what it depends on.
 pub(super) fn of(channel: &Channel, at: &Evaluation<'_>, length: f64) -> Option<Vec<OutputDerivatives>> {

@@ -6,7 +6,7 @@ use lissom_core::linearized::OutputDerivatives;
 
 use super::derivatives::{add_scaled, of_slopes};
 use super::{Build, Evaluation, OutputQuantity, WHOLE_MODEL};
-use crate::document::{Declaration, Feature, Subject};
+use crate::outputs::kinds::{Declaration, Feature, Subject};
 
 /// Registry entry.
 pub(crate) const ENERGY: Declaration = Declaration {

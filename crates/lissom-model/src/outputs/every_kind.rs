@@ -10,11 +10,11 @@ use lissom_core::linearized::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
-use crate::channels::{Channel, signal_value};
-use crate::document::{Feature, Feeds, OutputKind};
 use crate::lower::registry::registry;
 use crate::lower::{Lowered, lower};
 use crate::outputs::Evaluation;
+use crate::outputs::channels::{Channel, signal_value};
+use crate::outputs::kinds::{Feature, Feeds, OutputKind};
 use crate::{Library, ModelText, Report};
 
 const MODEL: &str = include_str!("../../tests/every_output.toml");

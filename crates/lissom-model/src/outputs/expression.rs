@@ -5,9 +5,9 @@ use lissom_core::signals::SignalFunction;
 
 use super::derivatives::add_scaled;
 use super::{Build, Evaluation, OutputQuantity};
-use crate::channels::Channel;
-use crate::document::{Declaration, Feature, Subject};
 use crate::expression::Formula;
+use crate::outputs::channels::Channel;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
 
 /// Registry entry.
 pub(crate) const EXPRESSION: Declaration = Declaration {

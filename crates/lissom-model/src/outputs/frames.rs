@@ -10,11 +10,13 @@ use lissom_core::signals::measurement::Measurement;
 use lissom_core::system::System;
 use lissom_motion::{Motion, Vector3};
 
-use super::differences::Touched;
 use super::location::{BeamSection, Location, ObservedSection};
+use super::touched::Touched;
 use super::{Build, Evaluation, Found, OutputQuantity, Resolver, SOLUTION, Subjects};
-use crate::document::{Declaration, Feature, NodeReference, Output, OutputSource, Subject, interface_name};
-use crate::report::{Located, Problem};
+use crate::outputs::entry::{Output, OutputSource};
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::reading::node_reference::{NodeReference, interface_name};
+use crate::text::report::{Located, Problem};
 
 /// Registry entry.
 pub(crate) const POSITION: Declaration = Declaration {

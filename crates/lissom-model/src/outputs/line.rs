@@ -9,8 +9,9 @@ use lissom_motion::Motion;
 
 use super::frames::name_of;
 use super::{Build, Found, NamesAndUnits, OutputQuantity, Subjects};
-use crate::document::{Declaration, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const LINE: Declaration = Declaration {

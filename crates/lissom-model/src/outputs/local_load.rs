@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use super::differences::Touched;
 use super::frames::name_of;
+use super::touched::Touched;
 use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
-use crate::document::{Declaration, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Subject};
+use crate::text::report::Problem;
 use lissom_core::elements::local_load::LocalLoad;
 use lissom_core::elements::{Element, Unknowns};
 use lissom_core::system::System;

@@ -2,15 +2,20 @@
 //! derivatives. They are recorded, and signals depend on them.
 
 pub(crate) mod angle;
+pub(crate) mod channel_components;
+pub mod channels;
 pub(crate) mod contact;
 pub(crate) mod contact_force;
+pub(crate) mod contact_point;
 mod derivatives;
 mod differences;
 pub(crate) mod energy;
+pub(crate) mod entry;
 #[cfg(test)]
 mod every_kind;
 pub(crate) mod expression;
 pub(crate) mod frames;
+pub(crate) mod kinds;
 pub(crate) mod line;
 pub(crate) mod local_load;
 mod location;
@@ -25,6 +30,7 @@ mod rigid_contact_force;
 pub(crate) mod section;
 pub(crate) mod signal;
 pub(crate) mod spring;
+mod touched;
 pub(crate) mod work;
 
 use std::collections::BTreeMap;
@@ -43,12 +49,12 @@ use lissom_core::system::{ElementId, State, System};
 
 use nalgebra::DMatrix;
 
-use crate::channels::Channel;
-use crate::contact_point::{ContactPoint, RigidPoint};
-use crate::document::Output;
-use crate::report::Problem;
+use crate::outputs::channels::Channel;
+use crate::outputs::contact_point::{ContactPoint, RigidPoint};
+use crate::outputs::entry::Output;
+use crate::text::report::Problem;
 
-use differences::Touched;
+use touched::Touched;
 
 /// A system and the state at which a quantity is evaluated.
 #[derive(Clone, Copy)]

@@ -9,8 +9,9 @@ use super::Deformed;
 use super::frames::name_of;
 use super::relative::value_and_rate;
 use super::{Build, Found, NamesAndUnits, OutputQuantity, Resolver, Subjects};
-use crate::document::{Declaration, Output, Subject};
-use crate::report::{Located, Problem};
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Subject};
+use crate::text::report::{Located, Problem};
 
 /// Registry entry.
 pub(crate) const MODAL: Declaration = Declaration {

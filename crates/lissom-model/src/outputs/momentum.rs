@@ -9,7 +9,7 @@ use lissom_motion::{Rotation, Vector3};
 use super::derivatives::{add, add_scaled, of_slopes};
 use super::frames::carried_frame;
 use super::{Build, Evaluation, OutputQuantity, WHOLE_MODEL};
-use crate::document::{Declaration, Feature, Subject};
+use crate::outputs::kinds::{Declaration, Feature, Subject};
 
 /// Registry entry.
 pub(crate) const MOMENTUM: Declaration = Declaration {

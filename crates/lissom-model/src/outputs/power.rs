@@ -13,8 +13,9 @@ use lissom_core::system::{ElementId, ScaledPower, System};
 use super::derivatives::{add, add_argument, add_scaled, multiplier_row, of_gradient};
 use super::frames::name_of;
 use super::{Build, Evaluation, Found, OutputQuantity, Resolver, Subjects};
-use crate::document::{Declaration, Feature, Output, Subject};
-use crate::report::{Located, Problem};
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::text::report::{Located, Problem};
 
 /// Registry entry.
 pub(crate) const POWER: Declaration = Declaration {

@@ -12,9 +12,10 @@ use lissom_motion::{rotation_part, translation_part};
 use super::derivatives::{add, multiplier_row, of_local};
 use super::frames::name_of;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, SOLUTION, Subjects};
-use crate::channel_components::numbered;
-use crate::document::{Declaration, Feature, Output, OutputComponent, ReactionAxes, Subject};
-use crate::report::Problem;
+use crate::outputs::channel_components::numbered;
+use crate::outputs::entry::{Output, ReactionAxes};
+use crate::outputs::kinds::{Declaration, Feature, OutputComponent, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const REACTION: Declaration = Declaration {

@@ -13,8 +13,9 @@ use super::derivatives::add;
 use super::frames::name_of;
 use super::modal::deformed;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, Subjects};
-use crate::document::{Declaration, Feature, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const RECOVERED: Declaration = Declaration {

@@ -8,9 +8,10 @@ use lissom_core::signals::measurement::Measurement;
 
 use super::frames::name_of;
 use super::{Build, Found, NamesAndUnits, OutputQuantity, Resolver, Subjects};
-use crate::channel_components::coordinate_components;
-use crate::document::{Declaration, Feature, Output, Subject};
-use crate::report::{Located, Problem};
+use crate::outputs::channel_components::coordinate_components;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::text::report::{Located, Problem};
 
 /// Registry entry.
 pub(crate) const RELATIVE: Declaration = Declaration {

@@ -9,12 +9,13 @@ use lissom_core::linearized::OutputDerivatives;
 use lissom_core::system::System;
 
 use super::derivatives::add;
-use super::differences::Touched;
 use super::frames::name_of;
 use super::relative::coordinates;
+use super::touched::Touched;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, SOLUTION, Subjects};
-use crate::channel_components::numbered;
-use crate::document::{Declaration, Feature, Output, Subject};
+use crate::outputs::channel_components::numbered;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
 
 /// Registry entry.
 pub(crate) const RELATIVE_ACCELERATION: Declaration = Declaration {

@@ -5,9 +5,9 @@ use lissom_core::kinematics::NodeId;
 use lissom_core::system::System;
 use lissom_motion::Vector3;
 
-use super::differences::Touched;
+use super::touched::Touched;
 use super::{Evaluation, OutputQuantity};
-use crate::contact_point::RigidPoint;
+use crate::outputs::contact_point::RigidPoint;
 
 /// All points of a rigid contact.
 pub(super) struct RigidContactForce(pub(super) Vec<RigidPoint>);

@@ -9,7 +9,8 @@ use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 use super::frames::{node_of, section};
 use super::location::BeamSection;
 use super::{Build, Found, OutputQuantity, Subjects};
-use crate::document::{Declaration, Feature, Output, Subject};
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
 
 /// Registry entry.
 pub(crate) const SECTION_FORCE: Declaration = Declaration {

@@ -10,8 +10,9 @@ use lissom_core::system::System;
 use super::derivatives::add_argument;
 use super::frames::name_of;
 use super::{Build, Evaluation, Found, OutputQuantity, Subjects};
-use crate::document::{Declaration, Feature, Output, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const SIGNAL: Declaration = Declaration {

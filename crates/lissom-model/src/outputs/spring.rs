@@ -12,8 +12,9 @@ use lissom_core::system::element_quantity::Of;
 use super::derivatives::{add, multiplier_row};
 use super::frames::name_of;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, Subjects};
-use crate::document::{Declaration, Feature, Output, OutputComponent, Subject};
-use crate::report::Problem;
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, OutputComponent, Subject};
+use crate::text::report::Problem;
 
 /// Registry entry.
 pub(crate) const SPRING: Declaration = Declaration {

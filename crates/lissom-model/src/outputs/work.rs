@@ -7,7 +7,7 @@ use lissom_core::simulation::accumulated::{AcceptedStep, Accumulated};
 use super::Build;
 use super::frames::name_of;
 use super::power::{Actor, actor};
-use crate::document::{Declaration, Feature, Subject};
+use crate::outputs::kinds::{Declaration, Feature, Subject};
 
 /// Registry entry.
 pub(crate) const WORK: Declaration = Declaration {

@@ -4,13 +4,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Expanded, MAX_PARTS, Outside, PLACED_TABLES, Placement, ROOT, Scope, ScopeId, overrides};
-use crate::document::part_tables;
-use crate::document::top_level::{self, VERSION};
-use crate::library::{Library, joined};
-use crate::report::{Origin, Problem, Shift, Sources, Span};
-use crate::suggest;
+use super::{Expanded, MAX_PARTS, Outside, PLACED_TABLES, Placement, Scope, overrides};
+use crate::files::library::{Library, joined};
+use crate::format::part_tables;
+use crate::format::suggest;
+use crate::format::top_level::{self, VERSION};
+use crate::text::report::{Origin, Problem, Shift, Sources, Span};
 use crate::text::{self, Entry, Node, Table, Tree, Value, in_order};
+use crate::text::{ROOT, ScopeId};
 
 /// How deep parts may contain parts.
 const DEPTH: usize = 32;

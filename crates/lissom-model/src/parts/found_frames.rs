@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use lissom_motion::Motion;
 
-use super::ScopeId;
+use crate::text::ScopeId;
 
 /// The request.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

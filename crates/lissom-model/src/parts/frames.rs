@@ -1,12 +1,13 @@
 //! Frames of scopes and bodies, and positions of points, each computed when it is first requested.
 
-use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 
+use super::Placement;
 use super::found_frames::{Finding, Wanted};
-use super::{Placement, ScopeId};
-use crate::context::Context;
-use crate::document::body_axes;
-use crate::report::{Problem, Span};
+use crate::line::are_parallel;
+use crate::parts::context::Context;
+use crate::text::ScopeId;
+use crate::text::report::{Problem, Span};
 use crate::text::{Node, Value};
 
 impl Context<'_> {
@@ -76,7 +77,7 @@ impl Context<'_> {
                 let known = bodies.chain(self.instances.keys().map(String::as_str));
                 let problem =
                     Problem::error(node.span, format!("{what} names `{text}`, which is no body and no part"));
-                let help = crate::suggest::help(&text, known);
+                let help = crate::format::suggest::help(&text, known);
                 self.report(
                     problem
                         .label("no such frame")
@@ -184,4 +185,37 @@ impl Context<'_> {
             }
         }
     }
+}
+
+/// Body axes as columns in the axes around the body, from a rotation vector or from the first two axes.
+pub(crate) fn body_axes(
+    context: &Context<'_>,
+    (rotation, axes): (Option<&Node>, Option<&Node>),
+    what: &str,
+) -> Option<Matrix3> {
+    let Some(node) = axes else {
+        let rotation = rotation.map(|node| context.vector(node, &format!("`rotation` of {what}")));
+        let rotation = rotation.map_or(Some(Vector3::zeros()), |vector| vector);
+        return Some(Rotation::exponential(&rotation?).matrix());
+    };
+    if rotation.is_some() {
+        let message = format!("{what} has both `rotation` and `axes`");
+        return context.fail(node.span, message, "remove one of them");
+    }
+    let what = format!("`axes` of {what}");
+    let list = context.list(node, 2, &what)?;
+    let first = context.own_direction(&list[0], &format!("the first of {what}"));
+    let second = context.own_direction(&list[1], &format!("the second of {what}"));
+    let (first, second) = (first?, second?);
+    if are_parallel(&first, &second) {
+        return context.fail(node.span, format!("{what} are parallel"), "specify two different directions");
+    }
+    let one = first.normalize();
+    let three = one.cross(&second).normalize();
+    let exact = one.dot(&second.normalize()).abs() < 1e-6;
+    if !exact {
+        let message = format!("{what} must be perpendicular to each other");
+        return context.fail(node.span, message, "specify the first and the second axis of the body");
+    }
+    Some(Matrix3::from_columns(&[one, three.cross(&one), three]))
 }

@@ -1,6 +1,7 @@
 //! Expansion of parts: sub-assemblies from files or from the model itself, placed and inserted into the model's tables under
 //! names such as `leg2.rod`. The meaning of a name, a parameter or a position depends on its scope.
 
+pub(crate) mod context;
 mod expand;
 mod found_frames;
 mod frames;
@@ -10,19 +11,14 @@ mod overrides;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::library::Library;
-use crate::report::{Sources, Span};
-use crate::text::{Node, Table};
+use crate::files::library::Library;
+use crate::text::report::{Sources, Span};
+use crate::text::{Node, ScopeId, Table};
 
 pub(crate) use expand::expand;
 pub(crate) use found_frames::Frames;
+pub(crate) use frames::body_axes;
 pub(crate) use names::PREVIOUS_SAMPLE;
-
-/// Number of a scope.
-pub(crate) type ScopeId = usize;
-
-/// The scope of the model itself.
-pub(crate) const ROOT: ScopeId = 0;
 
 /// Most parts that a model may be made of: more is a mistake in a count.
 const MAX_PARTS: usize = 20_000;

@@ -2,10 +2,11 @@
 
 use std::borrow::Cow;
 
-use super::{Outside, ScopeId};
-use crate::context::Context;
+use super::Outside;
 use crate::expression::{Expression, Formula};
-use crate::report::{Problem, Span};
+use crate::parts::context::Context;
+use crate::text::ScopeId;
+use crate::text::report::{Problem, Span};
 use crate::text::{Node, Value};
 
 /// Tables whose entries expressions may name with a component, such as `tip.u1`.
@@ -106,7 +107,7 @@ impl Context<'_> {
 
     /// An expression whose names are those of the whole model.
     pub(crate) fn in_whole_model(&self, mut formula: Formula, scope: ScopeId) -> Formula {
-        if scope != super::ROOT {
+        if scope != crate::text::ROOT {
             formula.rename(&|text| self.quantity(text, scope));
         }
         formula

@@ -1,11 +1,11 @@
 //! Overrides inside parts, such as `leg2.rod.mass`.
 
 use super::Expanded;
-use crate::context::singular;
-use crate::document::top_level;
-use crate::report::Problem;
-use crate::suggest;
+use crate::format::suggest;
+use crate::format::top_level;
+use crate::format::top_level::singular;
 use crate::text::Patch;
+use crate::text::report::Problem;
 
 /// Puts the value of an override in its place among the parts.
 pub(super) fn apply(mut patch: Patch, into: &mut Expanded) -> Result<(), Box<Problem>> {

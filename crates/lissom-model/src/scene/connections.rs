@@ -3,8 +3,8 @@
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::places::{Anchor, Places, part_of};
 use super::symbols::attached;
-use super::{Anchor, Places, part_of};
 use crate::document::{Component, Document, NodeLocation};
 
 /// Instants at which the size of a load is sampled, less one.

@@ -2,9 +2,9 @@
 
 use lissom_motion::Vector3;
 
+use super::places::{Anchor, Places};
 use super::solids::{Axes, Form, Solid, Tone};
 use super::symbols::{End, joint_ends};
-use super::{Anchor, Places};
 use crate::document::{Component, Document};
 
 /// Number of slices of a profile.

@@ -9,6 +9,7 @@ mod dimensions;
 mod kinds;
 mod parts;
 mod path_values;
+mod places;
 mod shapes;
 mod solids;
 mod superelements;
@@ -16,21 +17,24 @@ mod symbols;
 
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::kinematics::{GROUND, NodeId};
-use lissom_motion::{Motion, Vector3};
+use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Document, NodeReference, OutputSource, ReactionAxes, interface_name};
+use crate::document::Document;
 use crate::lower::Lowered;
-use crate::report::Located;
+use crate::outputs::entry::{OutputSource, ReactionAxes};
 
+pub use crate::sections::Outline;
 pub use connections::{BeamLoad, Joint, Load, Spring};
 pub use parts::{Beam, Body, PointMass, Station};
 pub use path_values::PathValues;
-pub use shapes::{InertiaBox, Outline};
+pub use places::Anchor;
+use places::{Places, part_of};
+pub use shapes::InertiaBox;
 pub use solids::{Form, Solid, Tone};
 pub use symbols::{Rod, Symbol};
 
-pub use crate::surface::Surface;
+pub use crate::solids::surface::Surface;
 
 /// Version of the format.
 const VERSION: usize = 2;
@@ -86,15 +90,6 @@ pub struct Scene {
     pub outputs: Vec<Output>,
 }
 
-/// A position carried by a node.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Anchor {
-    /// The node.
-    pub node: NodeId,
-    /// Position in its frame [m].
-    pub position: [f64; 3],
-}
-
 /// Quantities to be recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
@@ -138,7 +133,7 @@ impl Scene {
             beam_loads: connections::beam_loads(document, &places),
             symbols,
             rods,
-            outputs: document.outputs.iter().map(|output| places.output(output)).collect(),
+            outputs: document.outputs.iter().map(|output| observed(&places, output)).collect(),
         }
     }
 
@@ -187,83 +182,23 @@ impl Scene {
     }
 }
 
-/// Where named things are among the nodes.
-struct Places<'a> {
-    lowered: &'a Lowered,
-}
-
-impl Places<'_> {
-    /// The node a reference means; none where a beam has no node there.
-    fn node(&self, reference: &NodeReference) -> Option<NodeId> {
-        let names = &self.lowered.names;
-        match reference {
-            NodeReference::Ground => Some(lissom_core::kinematics::GROUND),
-            NodeReference::Body(name) | NodeReference::PointMass(name) => names.nodes.get(name).copied(),
-            NodeReference::Interface { superelement, interface } => {
-                names.nodes.get(&interface_name(superelement, interface)).copied()
-            }
-            NodeReference::Beam { beam, fraction } => names.lines.get(beam)?.node_at(*fraction),
+/// An output with its part, and the point that it observes.
+fn observed(places: &Places<'_>, output: &crate::outputs::entry::Output) -> Output {
+    let (of, point) = match &output.source {
+        OutputSource::Model | OutputSource::Expression(_) => (None, None),
+        OutputSource::Joint(name)
+        | OutputSource::Spring(name)
+        | OutputSource::Contact(name)
+        | OutputSource::LocalLoad(name)
+        | OutputSource::Actor(name)
+        | OutputSource::Beam(name)
+        | OutputSource::Superelement(name)
+        | OutputSource::Signal(name) => (Some(name.value.clone()), None),
+        OutputSource::Node { node, point } => {
+            (Some(part_of(&node.value).to_owned()), places.observed(&node.value, point.as_ref()))
         }
-    }
-
-    /// Pose of a node as the model describes it.
-    fn frame(&self, node: NodeId) -> Motion {
-        self.lowered.drawn_frame(node)
-    }
-
-    /// The position `at` of the model, carried by a node.
-    fn anchor(&self, reference: &Located<NodeReference>, at: &Vector3) -> Option<Anchor> {
-        let node = self.node(&reference.value)?;
-        Some(Anchor { node, position: self.frame(node).inverse_transform_point(at).into() })
-    }
-
-    /// A direction of the model, in the frame of a node, of length one.
-    fn direction(&self, node: NodeId, direction: &Vector3) -> [f64; 3] {
-        self.frame(node).rotation.apply_inverse(&direction.normalize()).into()
-    }
-
-    fn output(&self, output: &crate::document::Output) -> Output {
-        let (of, point) = match &output.source {
-            OutputSource::Model | OutputSource::Expression(_) => (None, None),
-            OutputSource::Joint(name)
-            | OutputSource::Spring(name)
-            | OutputSource::Contact(name)
-            | OutputSource::LocalLoad(name)
-            | OutputSource::Actor(name)
-            | OutputSource::Beam(name)
-            | OutputSource::Superelement(name)
-            | OutputSource::Signal(name) => (Some(name.value.clone()), None),
-            OutputSource::Node { node, point } => {
-                (Some(part_of(&node.value).to_owned()), self.observed(&node.value, point.as_ref()))
-            }
-        };
-        let kind = output.kind.name().to_owned();
-        let is_global = kind == "reaction" && output.axes == ReactionAxes::Ground;
-        Output { name: output.name.value.clone(), kind, of, point, is_global }
-    }
-
-    /// The point that an output observes: a beam's is that of its section, not of the node.
-    fn observed(&self, reference: &NodeReference, point: Option<&Vector3>) -> Option<Anchor> {
-        let node = self.node(reference)?;
-        let position = match (point, reference) {
-            (Some(point), _) => self.frame(node).inverse_transform_point(point),
-            (None, NodeReference::Beam { beam, .. }) => {
-                let line = self.lowered.names.lines.get(beam)?;
-                let index = line.nodes.iter().position(|other| *other == node)?;
-                line.offsets[index].position
-            }
-            (None, _) => Vector3::zeros(),
-        };
-        Some(Anchor { node, position: position.into() })
-    }
-}
-
-/// Name of the part that a reference belongs to.
-fn part_of(reference: &NodeReference) -> &str {
-    match reference {
-        NodeReference::Ground => "ground",
-        NodeReference::Body(name) | NodeReference::PointMass(name) => name,
-        NodeReference::Beam { beam, .. } => beam,
-        NodeReference::Interface { superelement, .. } => superelement,
-    }
+    };
+    let kind = output.kind.name().to_owned();
+    let is_global = kind == "reaction" && output.axes == ReactionAxes::Ground;
+    Output { name: output.name.value.clone(), kind, of, point, is_global }
 }

@@ -4,11 +4,12 @@ use lissom_core::kinematics::{GROUND, NodeId};
 use lissom_motion::{Matrix3, Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::Places;
-use super::shapes::{InertiaBox, Outline};
+use super::places::Places;
+use super::shapes::InertiaBox;
 use crate::document::Document;
-use crate::solid::{Form, PlacedSolid, Solid};
-use crate::surface::Surface;
+use crate::sections::Outline;
+use crate::solids::surface::Surface;
+use crate::solids::{Form, PlacedSolid, Solid};
 
 /// Side of a drawn plane over the diagonal of the model.
 const LARGER: f64 = 1.6;

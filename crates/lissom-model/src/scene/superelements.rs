@@ -2,9 +2,10 @@
 
 use lissom_motion::Vector3;
 
+use super::connections::Joint;
+use super::places::{Anchor, Places};
 use super::solids::{Axes, Tone};
 use super::symbols::{Rod, Symbol};
-use super::{Anchor, Joint, Places};
 use crate::document::Document;
 
 /// Their entries, symbols of the interfaces, and the lines between them.

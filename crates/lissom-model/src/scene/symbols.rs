@@ -3,12 +3,14 @@
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::dimensions;
 use super::kinds::{Drawn, drawn};
-use super::shapes::Outline;
+use super::places::{Anchor, Places, part_of};
 use super::solids::{Axes, Solid};
-use super::{Anchor, Places, dimensions, part_of};
-use crate::document::{Attachment, Component, Document, NodeLocation, NodeReference};
-use crate::report::Located;
+use crate::document::{Attachment, Component, Document, NodeLocation};
+use crate::reading::node_reference::NodeReference;
+use crate::sections::Outline;
+use crate::text::report::Located;
 use lissom_core::kinematics::{GROUND, NodeId};
 
 /// Solids that one node carries.

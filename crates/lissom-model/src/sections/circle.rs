@@ -3,8 +3,8 @@
 use super::ShearTheory;
 use super::cross_section::{CrossSection, Integrals, SectionKind};
 use super::tube::ring;
-use crate::keys::{Shape, required};
-use crate::scene::Outline;
+use crate::format::keys::{Shape, required};
+use crate::sections::Outline;
 
 /// Radius [m].
 pub(super) struct Circle {

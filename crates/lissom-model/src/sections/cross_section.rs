@@ -1,9 +1,9 @@
 //! Interface of the shapes of cross sections.
 
 use super::ShearTheory;
-use crate::keys::Key;
-use crate::reader::Reader;
-use crate::scene::Outline;
+use crate::format::keys::Key;
+use crate::reading::reader::Reader;
+use crate::sections::Outline;
 
 /// Integrals over a section.
 #[derive(Clone, Copy, Debug, PartialEq)]

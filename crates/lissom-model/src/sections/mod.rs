@@ -7,10 +7,13 @@
 
 mod circle;
 mod cross_section;
+mod outline;
 mod rectangle;
 mod shear;
 mod torsion;
 mod tube;
+
+pub use outline::Outline;
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, skew};
 

@@ -3,8 +3,8 @@
 use super::ShearTheory;
 use super::cross_section::{CrossSection, Integrals, SectionKind};
 use super::torsion::rectangle_torsion_constant;
-use crate::keys::{Shape, required};
-use crate::scene::Outline;
+use crate::format::keys::{Shape, required};
+use crate::sections::Outline;
 
 /// Sides along axes 2 and 3 [m].
 pub(super) struct Rectangle {

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use super::ShearTheory;
 use super::cross_section::{CrossSection, Integrals, SectionKind};
-use crate::keys::{Shape, required};
-use crate::report::Problem;
-use crate::scene::Outline;
+use crate::format::keys::{Shape, required};
+use crate::sections::Outline;
+use crate::text::report::Problem;
 
 /// Outer and inner radius [m].
 pub(super) struct Tube {

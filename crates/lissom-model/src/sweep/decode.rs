@@ -7,14 +7,16 @@ use super::sampling::{Draw, SAMPLINGS, SamplingKind, WORDS};
 use super::statistic::{self, STATISTICS};
 use super::window::{self, Window};
 use super::{Collected, MAX_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
-use crate::context::Context;
-use crate::keys::{Key, Shape, choice, optional, required};
-use crate::parts::{Expanded, ROOT};
-use crate::reader::Reader;
-use crate::report::{Problem, Report, Severity, Span};
-use crate::suggest;
+use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::suggest;
+use crate::format::top_level::Variants;
+use crate::parts::Expanded;
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::ROOT;
+use crate::text::report::{Problem, Report, Severity, Span};
+use crate::text::toml_text::{inline, key};
 use crate::text::{self, Node, Value, in_order};
-use crate::toml_text::{inline, key};
 
 /// Columns of the table in addition to the varied paths and the collected scalars.
 const OTHER_COLUMNS: [&str; 6] =
@@ -31,7 +33,7 @@ impl SweepFile {
             return Err(Report::new(tree.problems, &tree.sources));
         }
         let plain = Expanded::plain(tree.root.clone(), tree.sources.clone());
-        let context = Context::new(&plain);
+        let context = Context::new(&plain, |_, _| Variants { tag: None, all: Vec::new() });
         let root = Node { span: Span::default(), scope: ROOT, value: Value::Table(tree.root.clone()) };
         let sweep = decode(&context, &root);
         let problems = context.into_problems();

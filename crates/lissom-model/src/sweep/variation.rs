@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::sampling::normal_quantile;
-use crate::output::number_text;
+use crate::text::number::number_text;
 
 /// A value put into a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]

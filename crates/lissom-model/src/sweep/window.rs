@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::rainflow::Fatigue;
 use super::statistic::Accumulator;
 use crate::expression::Expression;
-use crate::suggest;
+use crate::format::suggest;
 
 /// Keys of a window, each with its synonyms.
 const KEYS: [(&str, &[&str]); 3] =

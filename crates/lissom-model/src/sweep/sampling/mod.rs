@@ -1,7 +1,8 @@
-//! How the values of a sweep are combined or drawn. A new sampling is one file here and one line in [`SAMPLINGS`].
+//! How the values of a sweep are combined or drawn. A new sampling is one file here and one line in `kinds`.
 //! Draws depend on the seed, the path's number and the member alone.
 
 mod grid;
+mod kinds;
 mod latin_hypercube;
 mod list;
 mod monte_carlo;
@@ -9,6 +10,8 @@ mod normal;
 mod random;
 mod sobol;
 
+pub use kinds::SAMPLINGS;
+pub(super) use kinds::WORDS;
 pub(crate) use normal::normal_quantile;
 
 /// How a sampling fills the table of members by varied paths, member by member.
@@ -27,11 +30,3 @@ pub struct SamplingKind {
     pub summary: &'static str,
     pub(super) draw: Draw,
 }
-
-/// All of them; the first is the default.
-pub static SAMPLINGS: [SamplingKind; 5] =
-    [grid::KIND, list::KIND, latin_hypercube::KIND, sobol::KIND, monte_carlo::KIND];
-
-/// The words, in the order of [`SAMPLINGS`].
-pub(super) const WORDS: [&str; 5] =
-    [grid::KIND.name, list::KIND.name, latin_hypercube::KIND.name, sobol::KIND.name, monte_carlo::KIND.name];

@@ -1,0 +1,104 @@
+//! Steps of a compiled expression, and their evaluation on a stack.
+
+use lissom_core::kinematics::Switch;
+
+use super::breakpoints;
+use super::jet::Function;
+use super::number::{Number, Point};
+
+/// Depth of the stack an expression may need.
+pub(super) const STACK: usize = 32;
+
+/// A step of a compiled expression.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Step {
+    Constant(f64),
+    Variable,
+    Argument(usize),
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Negate,
+    Call(Function),
+    Call2(Function),
+    Call3(Function),
+}
+
+/// What steps leave, for a variable and arguments.
+pub(super) fn run<N: Number>(steps: &[Step], variable: N, argument: impl Fn(usize) -> N) -> N {
+    run_with(steps, variable, argument, |_, _| None)
+}
+
+/// The same with functions continued from known `sides` of their switches, in the order of the switches; none for all by
+/// their arguments. Passes the switching functions to `visit`.
+pub(super) fn run_continued<N: Point>(
+    steps: &[Step],
+    variable: N,
+    argument: impl Fn(usize) -> N,
+    sides: &[f64],
+    mut visit: impl FnMut(Switch),
+) -> N {
+    let mut next = 0;
+    run_with(steps, variable, argument, |function, arguments| {
+        let first = next;
+        next += breakpoints::switch_count(function);
+        let own = sides.get(first..next).unwrap_or_default();
+        breakpoints::switches(function, arguments.map(N::value), own, &mut visit);
+        breakpoints::continued(function, own, arguments)
+    })
+}
+
+/// The same, with functions that are `replaced` by other values.
+#[inline]
+fn run_with<N: Number>(
+    steps: &[Step],
+    variable: N,
+    argument: impl Fn(usize) -> N,
+    mut replaced: impl FnMut(Function, [N; 3]) -> Option<N>,
+) -> N {
+    let mut stack = [N::constant(0.0); STACK];
+    let mut top = 0;
+    for step in steps {
+        match *step {
+            Step::Constant(value) => stack[top] = N::constant(value),
+            Step::Variable => stack[top] = variable,
+            Step::Argument(index) => stack[top] = argument(index),
+            Step::Negate => stack[top - 1] = stack[top - 1].scaled(-1.0),
+            Step::Call(function) => {
+                let own = stack[top - 1];
+                stack[top - 1] = replaced(function, [own; 3]).unwrap_or_else(|| own.of(function));
+            }
+            Step::Add => stack[top - 2] = stack[top - 2].plus(stack[top - 1]),
+            Step::Subtract => stack[top - 2] = stack[top - 2].minus(stack[top - 1]),
+            Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
+            Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
+            Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
+            Step::Call2(function) => {
+                let (one, other) = (stack[top - 2], stack[top - 1]);
+                stack[top - 2] =
+                    replaced(function, [one, other, other]).unwrap_or_else(|| one.of_two(function, other));
+            }
+            Step::Call3(function) => {
+                let [one, other, third] = [stack[top - 3], stack[top - 2], stack[top - 1]];
+                stack[top - 3] = replaced(function, [one, other, third])
+                    .unwrap_or_else(|| one.of_three(function, other, third));
+            }
+        }
+        top = top + 1 - step.operands();
+    }
+    stack[0]
+}
+
+impl Step {
+    /// Values it takes from the stack; it leaves one.
+    pub(super) fn operands(self) -> usize {
+        match self {
+            Step::Constant(_) | Step::Variable | Step::Argument(_) => 0,
+            Step::Negate | Step::Call(_) => 1,
+            Step::Call3(_) => 3,
+            _ => 2,
+        }
+    }
+}

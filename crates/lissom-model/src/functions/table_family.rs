@@ -1,0 +1,103 @@
+//! Tables over one argument for ascending values of a second one, such as polars of an aerofoil for several Reynolds numbers.
+
+use lissom_core::law::{Enclosure, Interval};
+use lissom_core::registry::{ForceFunction, TimeFunction};
+
+use crate::functions::table::Table;
+
+/// Tables over a first argument. Between two of them the values are linear in the second argument; beyond the ends they are constant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableFamily {
+    tables: Vec<(f64, Table)>,
+}
+
+impl TableFamily {
+    /// Tables with ascending values of the second argument; none if there are none, or the values do not ascend strictly.
+    pub(crate) fn new(tables: Vec<(f64, Table)>) -> Option<Self> {
+        let ascends = tables.windows(2).all(|pair| pair[0].0 < pair[1].0);
+        (!tables.is_empty() && ascends).then_some(Self { tables })
+    }
+
+    /// Values of the first argument at which its slope jumps; none known for several tables.
+    pub(crate) fn kinks(&self) -> Vec<f64> {
+        match self.tables.as_slice() {
+            [(_, only)] => TimeFunction::breakpoints(only),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Index of the lower one of the two tables between which the second argument is, and the weight of the upper one.
+    fn weight(&self, second: f64) -> (usize, f64) {
+        let last = self.tables.len() - 1;
+        let lower = self.tables.partition_point(|(at, _)| *at <= second).clamp(1, last) - 1;
+        let [from, to] = [lower, lower + 1].map(|index| self.tables[index].0);
+        (lower, (second - from) / (to - from))
+    }
+}
+
+impl From<Table> for TableFamily {
+    /// One table for all values of the second argument.
+    fn from(table: Table) -> Self {
+        Self { tables: vec![(0.0, table)] }
+    }
+}
+
+impl ForceFunction for TableFamily {
+    fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
+        if let [(_, only)] = self.tables.as_slice() {
+            return ForceFunction::evaluate(only, first, second);
+        }
+        let (lower, weight) = self.weight(second);
+        let inside = weight.clamp(0.0, 1.0);
+        let [(from, below), (to, above)] = [lower, lower + 1].map(|index| {
+            let (at, table) = &self.tables[index];
+            (at, ForceFunction::evaluate(table, first, second))
+        });
+        let between = |k: usize| (1.0 - inside) * below[k] + inside * above[k];
+        let across = if inside == weight { (above[0] - below[0]) / (to - from) } else { 0.0 };
+        [between(0), between(1), across]
+    }
+
+    fn bounds(&self, first: Interval, second: Interval) -> Option<Interval> {
+        // Values are between those of tables, so that the extremes of all tables bound them.
+        let each = self.tables.iter().map(|(_, table)| ForceFunction::bounds(table, first, second));
+        each.reduce(|all, own| {
+            let (all, own) = (all?, own?);
+            Some([all[0].min(own[0]), all[1].max(own[1])])
+        })?
+    }
+
+    fn enclosure(&self, first: &Enclosure, second: &Enclosure) -> Option<Enclosure> {
+        match self.tables.as_slice() {
+            [(_, only)] => ForceFunction::enclosure(only, first, second),
+            _ => None,
+        }
+    }
+
+    fn depends_on_second(&self) -> bool {
+        self.tables.len() > 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::functions::table::{Extrapolation, Interpolation};
+
+    fn table(slope: f64) -> Table {
+        Table::new(&[(0.0, 0.0), (2.0, 2.0 * slope)], Interpolation::Linear, Extrapolation::Constant).unwrap()
+    }
+
+    #[test]
+    fn values_are_linear_between_tables_and_constant_beyond_them() {
+        let family = TableFamily::new(vec![(1.0, table(1.0)), (3.0, table(2.0)), (4.0, table(0.0))]).unwrap();
+        for (second, wanted) in
+            [(0.0, [1.0, 1.0, 0.0]), (2.0, [1.5, 1.5, 0.5]), (3.5, [1.0, 1.0, -2.0]), (5.0, [0.0, 0.0, 0.0])]
+        {
+            assert_eq!(family.evaluate(1.0, second), wanted, "{second}");
+        }
+        assert_eq!(family.bounds([0.0, 1.0], [1.0, 2.0]), Some([0.0, 2.0]));
+        assert!(TableFamily::new(vec![(1.0, table(1.0)), (1.0, table(2.0))]).is_none());
+        assert!(TableFamily::new(Vec::new()).is_none());
+    }
+}

@@ -1,0 +1,9 @@
+//! Readers of values: numbers, vectors, expressions, tables and functions, in the units and axes of the model file.
+
+mod force_values;
+pub(crate) mod function_values;
+pub(crate) mod local_tables;
+pub(crate) mod node_reference;
+pub(crate) mod reader;
+pub(crate) mod table_values;
+mod values;

@@ -1,0 +1,114 @@
+//! All forms of the tables of a model file and their keys as texts, for the search by `lissom kinds`.
+
+use crate::document::tables::variants;
+use crate::expression::FUNCTION_NAMES;
+use crate::format::keys::{Key, Shape};
+use crate::format::part_tables::part_motion;
+use crate::format::top_level::singular;
+use crate::format::top_level::{Holds, tops};
+use crate::format::{suggest, synonyms};
+use crate::reference::manual::words;
+use crate::registry::Registry;
+
+/// A key of a form.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FormKey {
+    /// Word in the model file.
+    pub name: &'static str,
+    /// Description of the value.
+    pub holds: String,
+    /// Words among which the value is chosen, if it is.
+    pub choices: Vec<&'static str>,
+    /// Unit; empty for none.
+    pub unit: &'static str,
+    /// Whether it must be given.
+    pub required: bool,
+    /// One sentence.
+    pub summary: &'static str,
+}
+
+/// A form of a table, such as one kind of joint; or a table with a single form.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Form {
+    /// Heading of the table, such as `[joints.*]`; or the key at the top.
+    pub heading: String,
+    /// Word of the table at the top.
+    pub table: &'static str,
+    /// The same in the singular, such as `joint`.
+    pub singular: &'static str,
+    /// Description of the table.
+    pub about: String,
+    /// Key whose value chooses the form; none for a single form.
+    pub tag: Option<&'static str>,
+    /// Value that chooses the form; empty for a single form.
+    pub word: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// Its keys except that which chooses it.
+    pub keys: Vec<FormKey>,
+}
+
+/// All forms, in the order of the reference.
+pub fn forms(registry: &Registry) -> Vec<Form> {
+    let mut all = Vec::new();
+    for top in tops() {
+        let heading = match top.holds {
+            Holds::Entries => format!("[{}.*]", top.name),
+            Holds::Table | Holds::Values(_) => format!("[{}]", top.name),
+            Holds::Value(_) => top.name.to_owned(),
+        };
+        let form = |tag, word, summary, keys| {
+            let about = match &top.holds {
+                Holds::Value(shape) => format!("{} Holds {}.", top.summary, words(shape)),
+                Holds::Values(shape) => format!("{} Each entry is {}.", top.summary, words(shape)),
+                Holds::Table | Holds::Entries => top.summary.to_owned(),
+            };
+            let (heading, table) = (heading.clone(), top.name);
+            let singular = if singular(top.name) == "entry" { top.name } else { singular(top.name) };
+            Form { heading, table, singular, about, tag, word, summary, keys }
+        };
+        let found = variants(top.name, registry);
+        if found.all.is_empty() {
+            all.push(form(None, "", top.summary, Vec::new()));
+        }
+        for variant in found.all {
+            let keys = variant.keys.iter().filter(|key| Some(key.name) != found.tag).map(of_key).collect();
+            all.push(form(found.tag, variant.word, variant.summary, keys));
+        }
+        if top.name == "initial" {
+            let keys = part_motion().iter().map(of_key).collect();
+            let about = "A rigid motion of some parts. A part has at most one.";
+            all.push(Form {
+                heading: "[initial.*]".to_owned(),
+                about: about.to_owned(),
+                ..form(None, "", about, keys)
+            });
+        }
+    }
+    all
+}
+
+fn of_key(key: &Key) -> FormKey {
+    let choices = match &key.holds {
+        Shape::Choice(words) => words.to_vec(),
+        Shape::Choices(words) => words.to_vec(),
+        _ => Vec::new(),
+    };
+    let Key { name, unit, required, summary, .. } = *key;
+    FormKey { name, holds: words(&key.holds), choices, unit, required, summary }
+}
+
+/// Names of the functions of expressions.
+pub fn function_names() -> impl Iterator<Item = &'static str> {
+    FUNCTION_NAMES.iter().map(|(name, _)| *name)
+}
+
+/// The words among `known` that were probably meant by `word`: those with this synonym, otherwise the nearest one.
+pub fn meant<'a>(word: &str, known: &[&'a str]) -> Vec<&'a str> {
+    let synonyms = synonyms::all_known_for(word, known);
+    if synonyms.is_empty() {
+        suggest::nearest(word, known.iter().copied()).into_iter().collect()
+    } else {
+        synonyms
+    }
+}

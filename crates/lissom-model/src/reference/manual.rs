@@ -1,0 +1,289 @@
+//! The reference of the model file as Markdown, made of the same descriptions the decoder and the schema read.
+
+use std::fmt::Write;
+
+use crate::document::tables::variants;
+use crate::expression::FUNCTION_NAMES;
+use crate::format::keys::table_keys;
+use crate::format::keys::{Key, Shape, direction};
+use crate::format::part_tables::part_motion;
+use crate::format::top_level::singular;
+use crate::format::top_level::{Holds, Top, Variants, tops};
+use crate::registry::{ChoiceEntry, DEFAULT_SCHEMES, KindEntry, Registry};
+
+const INTRODUCTION: &str = "\
+A model is a TOML file. Units are SI, angles radians, axes right-handed.
+
+- **Numbers.** Wherever a number is expected, a text is accepted: an expression of the `[parameters]`, such as
+  `\"L/2\"`. A parameter may refer to those above it.
+- **Expressions** consist of numbers, `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
+  `a < b`, `<=`, `>`, `>=` are 1 if true and 0 if false; `if(condition, a, b)` is `b` if the condition is 0.
+  `step(x)` is 0 for x < 0 and 1 otherwise; `smoothstep(x)` increases from 0 at 0 to 1 at 1 with continuous second
+  derivative. Functions of time contain `t` [s]; curves and twists contain `s`, from 0 to 1 along the beam.
+- **Functions of time** are a number, an expression of `t`, or
+  `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`, or `\"monotone\"`, which does not
+  overshoot); outside the table the value is that of the nearest end. Instead of `table`, `file = \"motor.csv\"` and
+  `columns = [\"time\", \"torque\"]` read two columns of a text file in the model's folder.
+- **Sizes** of loads are functions of time, or expressions that contain inputs, signals, states, coordinates of joints such as
+  `arm.angle`, and components of outputs such as `tip.u1`.
+- **Positions** are three numbers or the name of an entry of `[points]`.
+- **Directions** are three numbers, of which only the direction counts, or the letter of an axis, such as `\"z\"` or `\"-x\"`.
+- **Solids** are `{ kind = \"box\", sides = [a, b, c] }`, `{ kind = \"cylinder\", radius = r, length = l, axis = \"z\" }`,
+  `{ kind = \"tube\", radius = r, inner_radius = i, length = l, axis = \"z\" }` or `{ kind = \"sphere\", radius = r }`; shorter
+  `{ box = [a, b, c] }`, `{ cylinder = [r, l] }`, `{ tube = [r, i, l] }` and `{ sphere = r }`. What is drawn of a body may also be
+  `{ kind = \"mesh\", file = \"arm.stl\", scale = [1, 1, 1] }`, and has a `position` and a `rotation` in body axes.
+- **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
+  Beams, bodies and point masses share one set of names.
+- **Sections** have the order axial, shear 2, shear 3, torsion, bending 2, bending 3; axis 1 is along the beam, axis 3 oriented
+  to the beam's `up`. Without `up`, it is oriented to global z, or to y (then x) if the beam is parallel to z.
+";
+
+/// The reference of the files that [`Document::parse`](crate::Document::parse) reads with `registry`.
+pub fn manual(registry: &Registry) -> String {
+    let mut text = String::from("# The model file\n\n");
+    text.push_str(INTRODUCTION);
+    functions(&mut text);
+    for top in tops() {
+        of_top(&mut text, top, registry);
+    }
+    text
+}
+
+/// Words that [`topic`] accepts in addition to those of the tables.
+const FUNCTION_WORDS: [&str; 2] = ["function", "expression"];
+
+/// Contents of a key at the top level of a model file, such as `outputs` or `output`, as Markdown; also the description of a
+/// `function`. None if there is no such word.
+pub fn topic(registry: &Registry, word: &str) -> Option<String> {
+    let mut text = String::new();
+    if FUNCTION_WORDS.contains(&word)
+        || word.strip_suffix('s').is_some_and(|one| FUNCTION_WORDS.contains(&one))
+    {
+        let is_reported = |words: &&str| {
+            ["- **Expressions**", "- **Functions of time**", "- **Sizes**"]
+                .iter()
+                .any(|start| words.starts_with(start))
+        };
+        let items = INTRODUCTION.split("\n- ").skip(1).map(|item| format!("- {}", item.trim_end()));
+        items.filter(|item| is_reported(&item.as_str())).for_each(|item| line(&mut text, &item));
+        functions(&mut text);
+        line(&mut text, "\nA table of a function:");
+        keys(&mut text, table_keys().iter());
+        return Some(text);
+    }
+    let top = tops().find(|top| top.name == word || singular(top.name) == word)?;
+    of_top(&mut text, top, registry);
+    Some(text.trim_start().to_owned())
+}
+
+/// Unit of the value at `path` of a model file, such as `bodies.arm.mass`; none if forms of the table have different ones.
+pub fn unit_of(registry: &Registry, path: &str) -> Option<&'static str> {
+    let (table, rest) = path.split_once('.')?;
+    let name = rest.rsplit('.').next()?;
+    let all = variants(table, registry).all;
+    let mut units = all.iter().flat_map(|form| &form.keys).filter(|key| key.name == name).map(|key| key.unit);
+    let first = units.next()?;
+    (!first.is_empty() && units.all(|unit| unit == first)).then_some(first)
+}
+
+/// The words that [`topic`] accepts.
+pub fn topics() -> Vec<&'static str> {
+    let tables = tops().filter(|top| !matches!(top.holds, Holds::Value(_)));
+    let name = |top: &'static Top| if singular(top.name) == "entry" { top.name } else { singular(top.name) };
+    tables.map(name).chain(["function"]).collect()
+}
+
+fn functions(text: &mut String) {
+    let names: Vec<String> = FUNCTION_NAMES.iter().map(|(name, _)| format!("`{name}`")).collect();
+    line(text, &format!("\nFunctions: {}.", names.join(", ")));
+}
+
+fn of_top(text: &mut String, top: &Top, registry: &Registry) {
+    let must = if top.required { " Required." } else { "" };
+    match &top.holds {
+        Holds::Value(shape) => {
+            line(text, &format!("\n## `{}`\n\n{}{must} Holds {}.", top.name, top.summary, words(shape)));
+        }
+        Holds::Values(shape) => {
+            line(text, &format!("\n## `[{}]`\n\n{} Each entry is {}.", top.name, top.summary, words(shape)));
+        }
+        Holds::Table => {
+            line(text, &format!("\n## `[{}]`\n\n{}{must}", top.name, top.summary));
+            forms(text, top.name, registry);
+            if top.name == "initial" {
+                line(text, "\n### `[initial.…]`\n\nA rigid motion of some parts. A part has at most one.");
+                keys(text, part_motion().iter());
+            }
+        }
+        Holds::Entries => {
+            line(text, &format!("\n## `[{}.…]`\n\n{}{must}", top.name, top.summary));
+            forms(text, top.name, registry);
+        }
+    }
+}
+
+fn line(text: &mut String, words: &str) {
+    text.push_str(words);
+    text.push('\n');
+}
+
+fn forms(text: &mut String, name: &str, registry: &Registry) {
+    let Variants { tag, all } = variants(name, registry);
+    for form in &all {
+        if let Some(tag) = tag {
+            line(text, &format!("\n### `{tag} = \"{}\"`\n\n{}", form.word, form.summary));
+        }
+        // The word that chooses the form is in its heading.
+        keys(text, form.keys.iter().filter(|key| Some(key.name) != tag));
+        let kinds: &[KindEntry] = match name {
+            "joints" => &registry.joints,
+            "springs" => &registry.springs,
+            "loads" => &registry.loads,
+            _ => &[],
+        };
+        if let Some(entry) =
+            kinds.iter().find(|entry| entry.name == form.word).filter(|entry| !entry.sample.is_empty())
+        {
+            line(text, &format!("\n```toml\n{}\n```", entry.sample.trim_end()));
+        }
+    }
+    if name == "analysis" {
+        choices(text, ("Schemes", DEFAULT_SCHEMES), &registry.schemes);
+        choices(text, ("Solvers", "the first is the default"), &registry.solvers);
+    }
+}
+
+fn choices(text: &mut String, (heading, default): (&str, &str), table: &[ChoiceEntry]) {
+    line(text, &format!("\n{heading}; {default}:\n"));
+    for entry in table {
+        let own: Vec<String> =
+            entry.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect();
+        let own = if own.is_empty() { String::new() } else { format!(" Takes {}.", own.join(", ")) };
+        line(text, &format!("- `{}`: {}{own}", entry.name, entry.summary));
+    }
+}
+
+fn keys<'k>(text: &mut String, keys: impl Iterator<Item = &'k Key>) {
+    let mut heading = Some("\n| key | holds | unit | |\n| --- | --- | --- | --- |");
+    for key in keys {
+        if let Some(heading) = heading.take() {
+            line(text, heading);
+        }
+        let must = if key.required { "**required**; " } else { "" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| `{}` | {} | {} | {must}{} |",
+            key.name,
+            words(&key.holds),
+            key.unit,
+            key.summary
+        );
+    }
+}
+
+/// Description of a shape.
+pub(crate) fn words(shape: &Shape) -> String {
+    let fixed = match shape {
+        Shape::Text => "a text",
+        Shape::Version => "the number 1",
+        Shape::Number => "a number",
+        Shape::Positive => "a number > 0",
+        Shape::NotNegative => "a number ≥ 0",
+        Shape::Between(least, most) => return format!("a number from {least:.4} to {most}"),
+        Shape::Count(least, most) => return format!("a whole number from {least} to {most}"),
+        Shape::Flag => "`true` or `false`",
+        Shape::Vector | Shape::GlobalVector | Shape::Rotation => "three numbers",
+        Shape::Point => "three numbers, or `{ in = \"part\", at = [x, y, z] }`",
+        Shape::Names => "a list of names of parts",
+        Shape::Entries(table) => return format!("entries as in `[{table}]`"),
+        direction!() => "a direction",
+        Shape::Choice(words) => {
+            let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
+            return quoted.join(", ");
+        }
+        Shape::Choices(words) => {
+            let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
+            return format!("a list of {}", quoted.join(", "));
+        }
+        Shape::Name(table) => return format!("the name of an entry of `[{table}]`"),
+        Shape::Place => "a position",
+        Shape::PlaceOrNode => "a position or a node",
+        Shape::Node => "a node",
+        Shape::Nodes => "a list of nodes",
+        Shape::Function => "a function of time",
+        Shape::FunctionOf(variable) => {
+            return format!("an expression of `{variable}`, or a table of it written as a function of time");
+        }
+        Shape::Equation => "an expression of coordinates of joints, such as `arm.angle`, and of `t`",
+        Shape::Size => "a size",
+        Shape::Formula => "an expression of signals",
+        Shape::Signal => {
+            "an expression of signals, `{ value, sample, start, numerator, denominator }`, or `{ of, table }` with the keys of a table"
+        }
+        Shape::Profile => "a number or an expression of `s`",
+        Shape::Curve => "three expressions of `s`",
+        Shape::Distribution | Shape::SectionDistribution => "three expressions of `s` and `t`",
+        Shape::Axes => "two vectors",
+        Shape::Mass => "a number > 0, or `{ density }`",
+        Shape::Inertia => "three numbers, a 3 x 3 matrix, or a solid",
+        Shape::Solid => "a solid, or a list of solids",
+        Shape::Friction => "`{ coulomb, static, stribeck, viscous, deflection, damping }`",
+        Shape::Latch => "`{ at }`",
+        Shape::Stiffness => "six numbers or a 6 x 6 matrix",
+        Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",
+        Shape::Shear => "a number, two numbers, or a word",
+        Shape::Stations => "a list of tables",
+        Shape::Places => "a list of `{ on, at }`, `at` may be omitted",
+        Shape::Interfaces => "a list of `{ name, at }`",
+        Shape::Rows => "a list of pairs",
+        Shape::NumberRows => "a list of lists of equally many numbers",
+        Shape::Pair => "two numbers",
+        Shape::Words => "two texts",
+        Shape::Force([first, second]) => {
+            return format!("a number, an expression of `{first}` and `{second}`, or a table over `{first}`");
+        }
+        Shape::Range => "two ascending numbers, which may be `-inf` and `inf`",
+        Shape::Numbers => "a list of numbers",
+        Shape::SquareMatrix => "a number, a list of numbers (a diagonal), or a square matrix by rows",
+        Shape::Coordinates => {
+            "a list of coordinates of joints, such as `\"arm.angle\"`, or of joints: all of theirs"
+        }
+        Shape::Table => "a table",
+    };
+    fixed.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_of_the_format_is_in_the_manual() {
+        const KIND: KindEntry = KindEntry {
+            name: "revolute",
+            summary: "Turns about an axis.",
+            sample: "axis = [0, 0, 1]",
+            parameters: &[],
+            ports: lissom_core::ports::Ports::AXIS,
+        };
+        const SCHEME: ChoiceEntry =
+            ChoiceEntry { name: "radau-iia", summary: "Third order.", parameters: &[], tolerance: None };
+        let registry = Registry { joints: vec![KIND], schemes: vec![SCHEME], ..Registry::default() };
+        let text = manual(&registry);
+        for top in tops() {
+            assert!(text.contains(top.name) && text.contains(top.summary), "{}", top.name);
+            for key in variants(top.name, &registry).all.iter().flat_map(|form| &form.keys) {
+                assert!(text.contains(&format!("`{}", key.name)), "{} {}", top.name, key.name);
+            }
+        }
+        for words in [
+            "### `kind = \"revolute\"`",
+            "Turns about an axis.",
+            "- `radau-iia`: Third order.",
+            "`smoothstep`",
+        ] {
+            assert!(text.contains(words), "{words}");
+        }
+    }
+}

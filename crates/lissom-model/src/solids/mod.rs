@@ -1,0 +1,181 @@
+//! Volume and inertia of homogeneous solids.
+
+pub(crate) mod surface;
+
+use std::sync::Arc;
+
+use lissom_core::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
+use lissom_motion::{Matrix3, Motion, Vector3};
+
+use surface::Surface;
+
+/// A homogeneous solid about its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Solid {
+    /// Sides along the axes [m].
+    Box([f64; 3]),
+    /// A circular cylinder, hollow where the inner radius is not zero [m].
+    Tube {
+        /// Outer radius.
+        outer: f64,
+        /// Inner radius.
+        inner: f64,
+        /// Length along the axis.
+        length: f64,
+        /// Direction of the axis, a unit vector.
+        axis: Vector3,
+    },
+    /// Radius [m].
+    Sphere(f64),
+    /// A rod with hemispherical ends.
+    Capsule {
+        /// Radius [m].
+        radius: f64,
+        /// Length between the centres of the ends [m].
+        length: f64,
+        /// Direction of the axis, a unit vector.
+        axis: Vector3,
+    },
+    /// Semi-axes [m].
+    Ellipsoid([f64; 3]),
+}
+
+/// What touches.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Form {
+    /// A solid about its centre.
+    Solid(Solid),
+    /// Everything below the plane z = 0.
+    HalfSpace,
+    /// A prism along the third axis with a smooth outline.
+    Outline(Arc<Outline>),
+    /// A prism along the third axis with straight sides.
+    Polygon(Arc<Polygon>),
+    /// A convex polyhedron.
+    Hull(Arc<Mesh>),
+    /// Everything below a surface.
+    HeightField(Arc<HeightField>),
+    /// Triangles of a file, which may enclose a solid.
+    Mesh(Arc<Surface>),
+}
+
+/// A solid at its position in a part.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PlacedSolid {
+    pub(crate) form: Form,
+    /// Its axes in those of the part; the third is the axis of a round one and the normal of a plane.
+    pub(crate) frame: Motion,
+}
+
+impl Solid {
+    /// Whether its lengths make sense.
+    pub(crate) fn is_solid(&self) -> bool {
+        match *self {
+            Self::Box(sides) => sides.iter().all(|side| *side > 0.0),
+            Self::Tube { outer, inner, length, .. } => inner >= 0.0 && outer > inner && length > 0.0,
+            Self::Sphere(radius) => radius > 0.0,
+            Self::Capsule { radius, length, .. } => radius > 0.0 && length > 0.0,
+            Self::Ellipsoid(axes) => axes.iter().all(|axis| *axis > 0.0),
+        }
+    }
+
+    /// Whether it contains the line between any two of its points, and the distance from it is known.
+    pub(crate) fn has_convex_surface(&self) -> bool {
+        match self {
+            Self::Tube { inner, .. } => *inner == 0.0,
+            Self::Ellipsoid(_) => false,
+            Self::Box(_) | Self::Sphere(_) | Self::Capsule { .. } => true,
+        }
+    }
+
+    /// Volume [m³].
+    pub(crate) fn volume(&self) -> f64 {
+        match *self {
+            Self::Box([a, b, c]) => a * b * c,
+            Self::Tube { outer, inner, length, .. } => {
+                std::f64::consts::PI * (outer * outer - inner * inner) * length
+            }
+            Self::Sphere(radius) => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+            Self::Capsule { radius, length, .. } => {
+                std::f64::consts::PI * radius * radius * (length + 4.0 / 3.0 * radius)
+            }
+            Self::Ellipsoid([a, b, c]) => 4.0 / 3.0 * std::f64::consts::PI * a * b * c,
+        }
+    }
+
+    /// Inertia about the centre per mass [m²].
+    pub(crate) fn inertia(&self) -> Matrix3 {
+        let moments = match *self {
+            Self::Box([a, b, c]) => Vector3::new(b * b + c * c, a * a + c * c, a * a + b * b) / 12.0,
+            Self::Tube { outer, inner, length, axis } => {
+                let radii = outer * outer + inner * inner;
+                let across = (3.0 * radii + length * length) / 12.0;
+                let along = axis * axis.transpose();
+                return across * (Matrix3::identity() - along) + 0.5 * radii * along;
+            }
+            Self::Sphere(radius) => Vector3::repeat(0.4 * radius * radius),
+            Self::Ellipsoid([a, b, c]) => Vector3::new(b * b + c * c, a * a + c * c, a * a + b * b) / 5.0,
+            Self::Capsule { radius, length, axis } => {
+                // Cylinder and two half balls, whose centres are 3/8 of the radius from their faces.
+                let ends = 4.0 / 3.0 * radius / (length + 4.0 / 3.0 * radius);
+                let square = radius * radius;
+                let rod = (1.0 - ends) * (square / 4.0 + length * length / 12.0);
+                let balls = ends * (0.4 * square + 0.25 * length * length + 0.375 * length * radius);
+                let spin = square * ((1.0 - ends) / 2.0 + 0.4 * ends);
+                let along = axis * axis.transpose();
+                return (rod + balls) * (Matrix3::identity() - along) + spin * along;
+            }
+        };
+        Matrix3::from_diagonal(&moments)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sums over small cubes.
+    fn summed(is_inside: impl Fn(&Vector3) -> bool, size: f64) -> (f64, Vector3) {
+        let count: i32 = 80;
+        let width = size / f64::from(count);
+        let (mut volume, mut moments) = (0.0, Vector3::zeros());
+        for index in 0..count.pow(3) {
+            let of = |k: i32| (f64::from(index / count.pow(k as u32) % count) + 0.5) * width - 0.5 * size;
+            let x = Vector3::new(of(0), of(1), of(2));
+            if is_inside(&x) {
+                volume += width.powi(3);
+                let square = x.component_mul(&x);
+                moments += width.powi(3) * (Vector3::repeat(square.sum()) - square);
+            }
+        }
+        (volume, moments / volume)
+    }
+
+    #[test]
+    fn volumes_and_moments_are_those_of_many_small_cubes() {
+        let across = |x: &Vector3| x.y.hypot(x.z);
+        let tube = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: Vector3::x() };
+        let sides = [0.4, 0.7, 1.0];
+        let rod = Solid::Capsule { radius: 0.25, length: 0.5, axis: Vector3::x() };
+        let beyond = |x: &Vector3| (x - Vector3::new(x.x.clamp(-0.25, 0.25), 0.0, 0.0)).norm();
+        for (solid, (volume, moments)) in [
+            (rod, summed(|x| beyond(x) < 0.25, 1.0)),
+            (Solid::Sphere(0.5), summed(|x| x.norm() < 0.5, 1.0)),
+            (tube, summed(|x| x.x.abs() < 0.4 && (0.2..0.5).contains(&across(x)), 1.0)),
+            (
+                Solid::Ellipsoid([0.5, 0.3, 0.4]),
+                summed(|x| (x.x / 0.5).powi(2) + (x.y / 0.3).powi(2) + (x.z / 0.4).powi(2) < 1.0, 1.0),
+            ),
+            (Solid::Box(sides), summed(|x| (0..3).all(|k| x[k].abs() < 0.5 * sides[k]), 1.0)),
+        ] {
+            assert!((solid.volume() - volume).abs() < 1e-2 * volume, "{solid:?} {volume}");
+            let found = solid.inertia().diagonal();
+            assert!((found - moments).norm() < 1e-2 * moments.norm(), "{solid:?} {moments}");
+        }
+        // About an oblique axis the moments of inertia are turned.
+        let turn = lissom_motion::Rotation::exponential(&Vector3::new(0.3, -0.7, 1.1));
+        let oblique = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: turn.apply(&Vector3::x()) };
+        let turned = turn.matrix() * tube.inertia() * turn.matrix().transpose();
+        assert!((oblique.inertia() - turned).norm() < 1e-15);
+    }
+}
