@@ -392,17 +392,17 @@ mod tests {
     const MAX_CYCLE: usize = 5;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 403;
+    const MAX_CONSTANTS: usize = 404;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 10] = [
         ("lissom-motion", 3030),
         ("lissom-solver", 7000),
-        ("lissom-mechanics", 31_750),
-        ("lissom-system", 3650),
-        ("lissom-core", 32_060),
+        ("lissom-mechanics", 31_970),
+        ("lissom-system", 3780),
+        ("lissom-core", 31_770),
         ("lissom-drawing", 1380),
-        ("lissom-model", 32_500),
+        ("lissom-model", 32_360),
         ("lissom", 28_520),
         ("lissom-fmi", 660),
         ("lissom-python", 2170),

@@ -3,11 +3,12 @@
 use crate::assembly::AssemblyError;
 use crate::diagnostics::Entry;
 use crate::errors::Warning;
-use crate::errors::{InitialError, StepError, signal_failure};
+use crate::errors::{InitialError, StepError};
 use crate::linearized::{
     BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
 };
 use crate::path::PathError;
+use crate::signals::failure;
 use crate::simulation::InputError;
 use crate::simulation::SnapshotError;
 use crate::studies::joint_space::JointSpaceError;
@@ -15,7 +16,7 @@ use crate::studies::joint_space::JointSpaceError;
 /// Their entries: warnings, then failures.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
     let of_motions = StepError::ENTRIES.iter().chain(InitialError::ENTRIES).chain(InputError::ENTRIES);
-    Warning::ENTRIES.iter().chain(of_motions).chain([&signal_failure::ENTRY]).chain(of_analyses())
+    Warning::ENTRIES.iter().chain(of_motions).chain([&failure::ENTRY]).chain(of_analyses())
 }
 
 /// Those of assembly, paths, linear models and snapshots, which do not concern a motion.

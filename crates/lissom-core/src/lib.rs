@@ -4,8 +4,8 @@
 //! This crate opens no file, prints nothing and reads no clock.
 
 pub use lissom_mechanics::{
-    contact, elements, evaluation, instants, joints, kinematics, law, number, ports, registry, relation,
-    round_off, signals,
+    catalogued, contact, elements, evaluation, instants, joints, kinematics, law, number, ports, registry,
+    relation, round_off, signals,
 };
 pub use lissom_system as system;
 

@@ -4,6 +4,7 @@
 //! This crate opens no file, prints nothing and reads no clock.
 
 pub mod contact;
+pub mod diagnostics;
 pub mod dual;
 pub mod elements;
 pub mod evaluation;

@@ -1,5 +1,6 @@
 //! The simulated model: an immutable system, and the state that changes.
 
+pub mod accumulated;
 mod assembly;
 mod builder;
 mod constraints;
@@ -7,6 +8,7 @@ pub mod element_quantity;
 pub mod energy_derivatives;
 mod feedback;
 mod mass;
+mod output_derivatives;
 mod parameter_difference;
 mod reading;
 mod state;
@@ -15,12 +17,14 @@ mod step_stages;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+pub use accumulated::Need;
 pub use builder::{BeamChain, BuildError, Builder, JointAttachment, PlaceOnTip, Placement};
 pub use lissom_mechanics::evaluation::batch::ElementId;
 pub use lissom_mechanics::evaluation::threads::Threads;
 pub use lissom_mechanics::evaluation::{Blend, Linearization, Scratch, Sum, TangentAssembler, WORTH_WHILE};
 pub use lissom_mechanics::joints::Drive;
 pub use mass::Mass;
+pub use output_derivatives::OutputDerivatives;
 pub use parameter_difference::ParameterDifference;
 pub use reading::{Quantity, Reading};
 pub use state::State;

@@ -1,8 +1,8 @@
 //! Inputs and outputs of a linear model, by the names of the model file.
 
 use lissom_core::diagnostics::Diagnose;
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::{Argument, DiscreteValueId};
+use lissom_core::system::OutputDerivatives;
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower};
 

@@ -15,6 +15,8 @@ mod columns;
 mod groups;
 mod tree;
 
+use std::ops::Deref;
+
 use self::closing::{Closing, Pose};
 use self::groups::Groups;
 use self::tree::Tree;
@@ -91,7 +93,7 @@ diagnostics! {
         /// Joints stay open.
         Open {
             /// The open joints, the widest gap first.
-            gaps: Vec<Gap>,
+            gaps: Gaps,
         } => "joints-do-not-close" {
             subject: Subject::new("joint", gaps.first().map_or("", |gap| &gap.joint)),
             cause: ("the joints do not close; at the best approximation these remain open: {}", in_words(gaps)),
@@ -113,8 +115,20 @@ diagnostics! {
     }
 }
 
-impl From<&Vec<Gap>> for Value {
-    fn from(gaps: &Vec<Gap>) -> Self {
+/// Gaps, the widest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gaps(pub Vec<Gap>);
+
+impl Deref for Gaps {
+    type Target = [Gap];
+
+    fn deref(&self) -> &[Gap] {
+        &self.0
+    }
+}
+
+impl From<&Gaps> for Value {
+    fn from(gaps: &Gaps) -> Self {
         Self::Text(in_words(gaps))
     }
 }
@@ -169,7 +183,7 @@ pub fn assemble(
     }
     let left = closing.gaps(&pose, request.tolerance);
     if !left.is_empty() {
-        return Err(AssemblyError::Open { gaps: left });
+        return Err(AssemblyError::Open { gaps: Gaps(left) });
     }
     closing.place(&pose, at);
     if let Some(joint) = upside_down(system, at) {

@@ -2,7 +2,6 @@
 
 mod initial_error;
 mod reports;
-pub(crate) mod signal_failure;
 pub(crate) mod step_error;
 mod warning;
 

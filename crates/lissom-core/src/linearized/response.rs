@@ -10,7 +10,7 @@ use num_complex::Complex64;
 
 use super::model::{LinearError, LinearModel};
 use super::shifted::ComplexShift;
-use crate::diagnostics::{Diagnostic, Value, diagnostics};
+use crate::diagnostics::{Diagnostic, diagnostics};
 use crate::{interrupt, round_off};
 
 /// … or this number of times.
@@ -46,12 +46,6 @@ diagnostics! {
             let remedy = format!("{}; without damping it is unbounded at a natural frequency", diagnostic.remedy);
             Diagnostic { remedy, ..diagnostic }
         },
-    }
-}
-
-impl From<&Complex64> for Value {
-    fn from(number: &Complex64) -> Self {
-        Self::Text(number.to_string())
     }
 }
 

@@ -6,8 +6,9 @@ use crate::kinematics::Subject;
 use crate::settings::{Problem, StepReport, Stopwatch};
 use crate::signals::event::Occurrence;
 use crate::simulation::Simulation;
-use crate::simulation::recovery::{Need, Recovery};
+use crate::simulation::recovery::Recovery;
 use crate::simulation::signal_history::Break;
+use crate::system::Need;
 
 /// Maximum nesting depth of laws with levels whose arguments have levels themselves.
 const MAX_NESTED_LEVELS: usize = 8;

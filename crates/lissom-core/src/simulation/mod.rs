@@ -1,6 +1,6 @@
 //! Time stepping of a system: the state, and the solution of steps.
 
-pub mod accumulated;
+mod accumulated;
 mod arc;
 pub(crate) mod breakpoints;
 pub(crate) mod cause;
@@ -22,11 +22,12 @@ mod snapshot;
 pub(crate) mod snapshot_parts;
 mod stops;
 
+pub use crate::system::Need;
 pub(crate) use arc::ArcControl;
 pub use conditioning::{Condition, ConditionMethod};
 pub(crate) use event_detector::{EventDetector, EventState};
 pub use held_values::InputError;
-pub use recovery::{Need, Recovered, Recovery};
+pub use recovery::{Recovered, Recovery};
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use stops::Stops;
 
@@ -47,7 +48,8 @@ use crate::monitors::stability::{Stability, unstable_directions};
 use crate::scaling::{Representative, Scaled};
 use crate::settings::Problem;
 use crate::settings::Totals;
-use crate::simulation::accumulated::{Accumulated, Accumulation};
+use crate::simulation::accumulated::Accumulation;
+use crate::system::accumulated::Accumulated;
 use crate::system::{State, System};
 
 /// A system and its state, which is advanced step by step.

@@ -13,6 +13,7 @@
 pub mod coordinate;
 pub mod delay;
 pub mod event;
+pub mod failure;
 pub mod frame_quantity;
 pub mod measurement;
 mod moving_frame;

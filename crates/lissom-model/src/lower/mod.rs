@@ -35,7 +35,7 @@ use lissom_core::elements::beam::section_error::{ExaminedBeams, SectionError};
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId};
 use lissom_core::settings::Settings;
-use lissom_core::simulation::accumulated::Accumulated;
+use lissom_core::system::accumulated::Accumulated;
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::Motion;
 

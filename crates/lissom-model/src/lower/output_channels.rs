@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use lissom_core::simulation::accumulated::Accumulated;
+use lissom_core::system::accumulated::Accumulated;
 use lissom_core::system::{State, System};
 
 use crate::document::{AnalysisKind, Document};

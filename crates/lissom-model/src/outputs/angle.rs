@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use lissom_core::kinematics::{CarriedFrame, GROUND, Kinematics};
-use lissom_core::simulation::accumulated::{AcceptedStep, Accumulated};
+use lissom_core::system::accumulated::{AcceptedStep, Accumulated};
 use lissom_motion::{Rotation, Vector3};
 
 use super::frames::{carried_frame, location_of};

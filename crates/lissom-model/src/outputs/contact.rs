@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::linearized::OutputDerivatives;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::System;
 
 use super::derivatives::of_local;

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use lissom_core::kinematics::local_derivatives::LocalDerivatives;
 use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, MeasurementId, NodeId};
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Gradient};
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::System;
 use lissom_core::system::energy_derivatives::Slopes;
 

@@ -8,7 +8,7 @@
 use std::ops::Bound;
 
 use lissom_core::kinematics::{GROUND, LOCKED, NodeId};
-use lissom_core::linearized::OutputDerivatives;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 

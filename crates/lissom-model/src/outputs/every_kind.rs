@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use lissom_core::kinematics::{DiscreteValueId, LOCKED, NodeMotion};
-use lissom_core::linearized::OutputDerivatives;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 

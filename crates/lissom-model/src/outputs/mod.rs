@@ -40,10 +40,10 @@ use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::local_load::LocalLoad;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Measurement};
-use lissom_core::simulation::accumulated::Accumulated;
+use lissom_core::system::OutputDerivatives;
+use lissom_core::system::accumulated::Accumulated;
 use lissom_core::system::element_quantity;
 use lissom_core::system::{ElementId, State, System};
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::kinematics::{CarriedFrame, LOCKED};
-use lissom_core::linearized::OutputDerivatives;
+use lissom_core::system::OutputDerivatives;
 use lissom_motion::{Rotation, Vector3};
 
 use super::derivatives::{add, add_scaled, of_slopes};

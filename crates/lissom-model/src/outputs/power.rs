@@ -4,9 +4,9 @@ use std::slice::from_ref;
 use std::sync::Arc;
 
 use lissom_core::kinematics::CoordinateId;
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::Measurement;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::element_quantity::Of;
 use lissom_core::system::{ElementId, ScaledPower, System};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lissom_core::joints::Equations;
 use lissom_core::joints::attached::AttachedJoint;
 use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::linearized::OutputDerivatives;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{rotation_part, translation_part};
 

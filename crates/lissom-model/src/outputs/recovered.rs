@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity, USUAL_UNKNOWNS};
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
+use lissom_core::system::OutputDerivatives;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::Deformed;

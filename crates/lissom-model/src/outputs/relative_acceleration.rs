@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lissom_core::joints::MAX_COORDINATES;
 use lissom_core::joints::slider::Slider;
 use lissom_core::kinematics::{CoordinateId, Kinematics, Quantity};
-use lissom_core::linearized::OutputDerivatives;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::System;
 
 use super::derivatives::add;

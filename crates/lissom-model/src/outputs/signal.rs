@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use lissom_core::kinematics::Kinematics;
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::System;
 
 use super::derivatives::add_argument;

@@ -4,8 +4,8 @@ use std::slice::from_ref;
 use std::sync::Arc;
 
 use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::measurement::Measurement;
+use lissom_core::system::OutputDerivatives;
 use lissom_core::system::System;
 use lissom_core::system::element_quantity::Of;
 

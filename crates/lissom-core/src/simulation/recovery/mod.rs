@@ -26,7 +26,7 @@ use crate::integrator::pivoting_unless_augmented;
 use crate::kinematics::{Kinematics, LOCKED, Layout, Switch};
 use crate::round_off;
 use crate::simulation::Simulation;
-use crate::system::{State, System};
+use crate::system::{Need, State, System};
 use crate::tuning::MAX_ITERATIONS;
 use lissom_motion::Motion;
 use matrix::RecoveryMatrix;
@@ -44,18 +44,6 @@ pub struct Recovery {
     stages: usize,
     found: Recovered,
     work: Workspace,
-}
-
-/// Quantities that have to be recovered for output.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Need {
-    /// Positions only: nothing is recovered.
-    #[default]
-    Positions,
-    /// Velocities.
-    Velocities,
-    /// Accelerations, multipliers or internal forces.
-    Forces,
 }
 
 /// Recovered states at an instant.

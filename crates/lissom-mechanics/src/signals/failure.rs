@@ -1,11 +1,11 @@
-//! The failure of a signal, which mechanics finds and the catalogue explains.
+//! The failure of a signal.
 
 use crate::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
 use crate::number::Written;
 use crate::signals::SignalError;
 
 /// Its entry of the catalogue.
-pub(crate) const ENTRY: Entry = Entry {
+pub const ENTRY: Entry = Entry {
     code: "signal-not-finite",
     variant: "SignalError",
     severity: Severity::Failure,
