@@ -8,6 +8,7 @@ pub use lissom_mechanics::{
     relation, round_off, signals,
 };
 pub use lissom_system as system;
+pub use lissom_system::{schemes, solver_features, tuning};
 
 pub mod assembly;
 mod bytes;
@@ -28,12 +29,9 @@ mod node_motion;
 pub mod path;
 pub mod saddle_point;
 pub mod scaling;
-pub mod schemes;
 pub mod settings;
 pub mod simulation;
-pub mod solver_features;
 pub mod studies;
-pub mod tuning;
 
 pub use energy_balance::EnergyBalance;
 

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::interrupt;
 use crate::round_off;
-use crate::solver_features::{DisabledFeatures, SolverFeature};
-use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
+use crate::solver_features::SolverFeature;
+pub use crate::system::settings::Limits;
+use crate::tuning::{MAX_HALVINGS, TuningParameter};
 
 /// A nonlinear system, as Newton's method solves it.
 pub trait Equations {
@@ -46,30 +47,6 @@ pub struct Correction {
     pub size: f64,
     /// Size of the increment that the step determines, with which the correction is compared.
     pub reference: f64,
-}
-
-/// Stopping criteria.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Estimated remaining error relative to the correction's reference [-].
-    pub tolerance: f64,
-    /// Maximum number of iterations in one solution.
-    pub max_iterations: usize,
-    /// Features that are switched off, for studies.
-    pub disabled: DisabledFeatures,
-    /// Parameters of the solver.
-    pub tuning: Tuning,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-8,
-            max_iterations: 25,
-            disabled: DisabledFeatures::default(),
-            tuning: Tuning::default(),
-        }
-    }
 }
 
 /// State of the Jacobian's factorization, retained from one solution to the next.

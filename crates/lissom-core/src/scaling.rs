@@ -24,73 +24,7 @@ use crate::node_motion::{IncrementKind, Known, Nodes, StageTable};
 use crate::schemes::{Combination, Parametrization, Scheme, Stage, Tableau, Weights};
 use crate::system::{Blend, Linearization, State, System};
 
-/// How the equations are scaled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ScaleBy {
-    /// s = m_r + d_r h + k_r h², from the model's representative mass, damping and stiffness.
-    #[default]
-    Physical,
-    /// s = 1.
-    Unit,
-    /// No scaling: the equations in SI units.
-    None,
-}
-
-impl ScaleBy {
-    /// Names in the model file.
-    pub const NAMES: &'static [&'static str] = &["physical", "unit", "none"];
-
-    /// The scaling of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "physical" => Some(Self::Physical),
-            "unit" => Some(Self::Unit),
-            "none" => Some(Self::None),
-            _ => None,
-        }
-    }
-
-    /// Its name in the model file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Physical => "physical",
-            Self::Unit => "unit",
-            Self::None => "none",
-        }
-    }
-}
-
-/// The user's choice of scaling.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScalingChoice {
-    /// How s is determined.
-    pub by: ScaleBy,
-    /// Whether rows and columns of a scaled tangent are also equilibrated.
-    pub equilibrated: bool,
-    /// Whether the augmented Lagrangian term is included.
-    pub augmented: bool,
-    /// Its factor p [-].
-    pub penalty: f64,
-}
-
-/// Small, because s includes the stiffest part of the model. With p = 1 the augmented term is a spring as stiff as
-/// that part across every constraint, and a tangent that is kept while joints rotate contracts slowly. On the tip
-/// crank (HHT, h = 1e-4 s) p = 1 takes 395 tangents, 1e-3 takes 45 and 1e-6 takes 37. Any p > 0 makes the block of
-/// massless coordinates definite.
-pub const DEFAULT_PENALTY: f64 = 1e-3;
-
-impl Default for ScalingChoice {
-    fn default() -> Self {
-        Self { by: ScaleBy::Physical, equilibrated: true, augmented: true, penalty: DEFAULT_PENALTY }
-    }
-}
-
-impl ScalingChoice {
-    /// Whether tangents are equilibrated: only scaled ones are.
-    pub fn equilibrates(&self) -> bool {
-        self.equilibrated && self.by == ScaleBy::Physical
-    }
-}
+pub use crate::system::settings::{DEFAULT_PENALTY, ScaleBy, ScalingChoice};
 
 /// Representative mass, damping and stiffness of a model: averages of the diagonals of M, D and K over all
 /// coordinates, massless ones included. A rotation is measured by the arc at the representative length, so that all

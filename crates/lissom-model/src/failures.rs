@@ -1,7 +1,7 @@
 //! Table of the failures of files and recorded results: code, cause, remedy and explanation of each.
 
-use lissom_core::catalogued;
-use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
+use lissom_mechanics::catalogued;
+use lissom_mechanics::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
 
 use crate::files::{Action, FileError};
 use crate::output::{CurveError, FigureError, RecordError};

@@ -1,8 +1,8 @@
 //! The kinds of joints, springs and loads, and the schemes and solvers, that a model file may name.
 //! The tables are an input of the decoder, so that this crate is independent of mechanics.
 
-use lissom_core::ports::Ports;
-use lissom_core::registry::Parameter;
+use lissom_mechanics::ports::Ports;
+use lissom_mechanics::registry::Parameter;
 
 /// One kind of joint, spring or load.
 #[derive(Clone, Copy, Debug)]

@@ -11,8 +11,12 @@ mod mass;
 mod output_derivatives;
 mod parameter_difference;
 mod reading;
+pub mod schemes;
+pub mod settings;
+pub mod solver_features;
 mod state;
 mod step_stages;
+pub mod tuning;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -15,7 +15,7 @@ use super::replacement;
 const BROKEN: [&str; 7] = [
     "crates/lissom-mechanics/src/elements",
     "crates/lissom-mechanics/src/joints",
-    "crates/lissom-core/src/schemes",
+    "crates/lissom-system/src/schemes",
     "crates/lissom-model/src/lower",
     "crates/lissom-model/src/output",
     "crates/lissom-model/src/sections",

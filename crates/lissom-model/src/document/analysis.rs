@@ -1,8 +1,8 @@
 //! The analysis that a model file requests, with its settings.
 
-use lissom_core::registry::{Parameter, Parameters};
-use lissom_core::settings::Controlled;
-use lissom_core::solver_features::DisabledFeatures;
+use lissom_mechanics::registry::{Parameter, Parameters};
+use lissom_system::settings::Controlled;
+use lissom_system::solver_features::DisabledFeatures;
 
 use super::entries::of_kind;
 use crate::parts::context::Context;
@@ -407,7 +407,7 @@ fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
         let message = format!("`frames_per_second` requires {:.0} frames of motion", rate * duration);
         let help = format!(
             "at most {MAX_FRAMES} are recorded: choose at most {}",
-            lissom_core::number::Written(MAX_FRAMES / duration)
+            lissom_mechanics::number::Written(MAX_FRAMES / duration)
         );
         reader.context.fail::<()>(node.span, message, help);
     }

@@ -1,6 +1,6 @@
 //! The keys of `[analysis]`, by kind of analysis.
 
-use lissom_core::solver_features::WORDS;
+use lissom_system::solver_features::WORDS;
 
 use crate::format::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::format::top_level::Variant;

@@ -1,6 +1,6 @@
 //! Approximate positions of parts: the table `[assembly]`, and the positions of joints on their tips.
 
-use lissom_core::ports::Ports;
+use lissom_mechanics::ports::Ports;
 use lissom_motion::Vector3;
 
 use super::initial::parts;

@@ -1,6 +1,6 @@
 //! Joints, springs and loads of a model file: their ports, and the parameters of their kind.
 
-use lissom_core::registry::{Parameters, Value as Held};
+use lissom_mechanics::registry::{Parameters, Value as Held};
 
 use super::connections::Places;
 use super::entries::each_of_kind;

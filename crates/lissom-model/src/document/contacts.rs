@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lissom_core::contact::compliance::RestitutionLaw;
+use lissom_mechanics::contact::compliance::RestitutionLaw;
 use lissom_motion::Vector3;
 
 use super::beam_contacts::{self, BeamSides};

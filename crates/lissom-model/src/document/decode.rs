@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use lissom_core::joints::generalized_coordinates::KIND as FREE;
+use lissom_mechanics::joints::generalized_coordinates::KIND as FREE;
 use lissom_motion::Vector3;
 
 use super::entries::PARTS;

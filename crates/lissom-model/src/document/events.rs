@@ -1,6 +1,6 @@
 //! Events of a model file.
 
-use lissom_core::signals::event::Direction;
+use lissom_mechanics::signals::event::Direction;
 
 use super::analysis::{Analysis, AnalysisKind};
 use super::entries::each;

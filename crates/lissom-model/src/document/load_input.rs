@@ -1,7 +1,7 @@
 //! A load whose size becomes an input: a unit of the input is a unit of the size.
 
-use lissom_core::elements::LOADS;
-use lissom_core::registry::{ParameterType, Value};
+use lissom_mechanics::elements::LOADS;
+use lissom_mechanics::registry::{ParameterType, Value};
 
 use super::Document;
 use crate::expression::Formula;

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::slice;
 use std::sync::Arc;
 
-use lissom_core::elements::local_load::{MAX_FUNCTIONS, MAX_STATES};
-use lissom_core::kinematics::Subject;
-use lissom_core::signals::MAX_ARGUMENTS;
+use lissom_mechanics::elements::local_load::{MAX_FUNCTIONS, MAX_STATES};
+use lissom_mechanics::kinematics::Subject;
+use lissom_mechanics::signals::MAX_ARGUMENTS;
 use lissom_motion::{Motion, Vector3};
 
 use super::NodeReference;

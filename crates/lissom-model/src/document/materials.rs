@@ -166,9 +166,9 @@ fn warn_of_moments(reader: &Reader<'_, '_>, node: &crate::text::Node, mass: &Mat
         let message = format!(
             "{} belongs to no section: one of its moments {}, {} and {} exceeds the sum of the others",
             reader.words("mass"),
-            lissom_core::number::Written(moments.x),
-            lissom_core::number::Written(moments.y),
-            lissom_core::number::Written(moments.z)
+            lissom_mechanics::number::Written(moments.x),
+            lissom_mechanics::number::Written(moments.y),
+            lissom_mechanics::number::Written(moments.z)
         );
         let help = "a slice has J11 = J22 + J33, density times the moments of area";
         reader.context.report(Problem::warning(node.span, message).help(help));

@@ -32,9 +32,9 @@ mod unloaded;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::elements::superelement::ReducedMatrices;
-use lissom_core::ports::Ports;
-use lissom_core::registry::Parameters;
+use lissom_mechanics::elements::superelement::ReducedMatrices;
+use lissom_mechanics::ports::Ports;
+use lissom_mechanics::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
 use nalgebra::DMatrix;
 

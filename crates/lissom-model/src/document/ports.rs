@@ -1,7 +1,7 @@
 //! Ports of joints, springs and loads: nodes, locations, directions, coordinates and beams, read as their kind declares them.
 
-use lissom_core::ports::{PortDeclaration, PortType, Ports};
-use lissom_core::registry::ModelAxis;
+use lissom_mechanics::ports::{PortDeclaration, PortType, Ports};
+use lissom_mechanics::registry::ModelAxis;
 use lissom_motion::Vector3;
 
 use super::connections::Places;

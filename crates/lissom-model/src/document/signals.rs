@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use lissom_core::signals::MAX_ARGUMENTS;
+use lissom_mechanics::signals::MAX_ARGUMENTS;
 
 use super::entries::each;
 use crate::expression::{self, Formula};

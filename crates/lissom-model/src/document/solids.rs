@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_core::contact::curves::Spline;
-use lissom_core::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
+use lissom_mechanics::contact::curves::Spline;
+use lissom_mechanics::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use crate::files::library::joined;

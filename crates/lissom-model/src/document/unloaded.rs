@@ -1,7 +1,7 @@
 //! A model without its gravity and loads.
 
-use lissom_core::elements::LOADS;
-use lissom_core::registry::{ParameterType, Value};
+use lissom_mechanics::elements::LOADS;
+use lissom_mechanics::registry::{ParameterType, Value};
 
 use super::Document;
 

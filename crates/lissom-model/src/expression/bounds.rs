@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lissom_core::law::{EVERYTHING, Interval, hull, inverse, product, square, sum};
+use lissom_mechanics::law::{EVERYTHING, Interval, hull, inverse, product, square, sum};
 
 use super::jet::Function;
 use super::number::Number;

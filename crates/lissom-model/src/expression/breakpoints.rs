@@ -1,7 +1,7 @@
 //! Where an expression is not smooth: roots of straight lines under functions that have a kink or a jump.
 
-use lissom_core::kinematics::Switch;
-use lissom_core::kinematics::switch::level_of_side;
+use lissom_mechanics::kinematics::Switch;
+use lissom_mechanics::kinematics::switch::level_of_side;
 
 use super::jet::Function;
 use super::number::Point;

@@ -1,6 +1,6 @@
 //! Enclosures: bounds of a function and of its first and second derivative over an interval of a parameter [Moore 1966].
 
-use lissom_core::law::{EVERYTHING, Enclosure, Interval};
+use lissom_mechanics::law::{EVERYTHING, Enclosure, Interval};
 
 use super::jet::Function;
 use super::number::Number;

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use lissom_core::kinematics::Switch;
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::signals::SignalFunction;
+use lissom_mechanics::kinematics::Switch;
+use lissom_mechanics::law::{Enclosure, Interval};
+use lissom_mechanics::signals::SignalFunction;
 
 use super::breakpoints::{Course, Line};
 use super::compile::{compile, fold};

@@ -18,7 +18,7 @@ mod token;
 
 use std::collections::BTreeMap;
 
-use lissom_core::law::{EVERYTHING, Enclosure};
+use lissom_mechanics::law::{EVERYTHING, Enclosure};
 
 pub(crate) use breakpoints::Line;
 pub use error::ExpressionError;

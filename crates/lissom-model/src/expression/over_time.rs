@@ -1,9 +1,9 @@
 //! A formula in the graph of signals, with the times of its kinks that are known before they are met: those of its parts that
 //! depend on time alone.
 
-use lissom_core::kinematics::Switch;
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::signals::SignalFunction;
+use lissom_mechanics::kinematics::Switch;
+use lissom_mechanics::law::{Enclosure, Interval};
+use lissom_mechanics::signals::SignalFunction;
 
 use super::breakpoints::{Course, Line};
 use super::formula::Formula;

@@ -1,6 +1,6 @@
 //! Steps of a compiled expression, and their evaluation on a stack.
 
-use lissom_core::kinematics::Switch;
+use lissom_mechanics::kinematics::Switch;
 
 use super::breakpoints;
 use super::jet::Function;

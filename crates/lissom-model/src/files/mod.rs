@@ -10,7 +10,7 @@ pub(crate) mod matrix_market;
 mod npz;
 pub(crate) mod polar_file;
 
-use lissom_core::diagnostics::Diagnose;
+use lissom_mechanics::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};

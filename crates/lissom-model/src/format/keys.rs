@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 
-use lissom_core::ports::{PortDeclaration, PortType};
-use lissom_core::registry::{ModelAxis, Parameter, ParameterType};
+use lissom_mechanics::ports::{PortDeclaration, PortType};
+use lissom_mechanics::registry::{ModelAxis, Parameter, ParameterType};
 
 /// Shape of the value of a key.
 #[derive(Clone, Debug, PartialEq)]

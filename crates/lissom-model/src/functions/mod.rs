@@ -7,7 +7,7 @@ pub mod table_family;
 
 use std::sync::Arc;
 
-use lissom_core::registry::{Constant, Function, TimeFunction};
+use lissom_mechanics::registry::{Constant, Function, TimeFunction};
 
 use crate::expression::{Expression, Jet};
 use remembered::Remembered;

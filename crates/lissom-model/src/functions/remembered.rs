@@ -4,8 +4,8 @@
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use lissom_core::law::Interval;
-use lissom_core::registry::TimeFunction;
+use lissom_mechanics::law::Interval;
+use lissom_mechanics::registry::TimeFunction;
 
 use crate::expression::Expression;
 

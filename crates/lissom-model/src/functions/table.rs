@@ -1,7 +1,7 @@
 //! Tables of rows (argument, value), interpolated: functions of time, and forces over an elongation.
 
-use lissom_core::law::{EVERYTHING, Interval, hull};
-use lissom_core::registry::{ForceFunction, TimeFunction};
+use lissom_mechanics::law::{EVERYTHING, Interval, hull};
+use lissom_mechanics::registry::{ForceFunction, TimeFunction};
 
 /// How a table is read between its rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Tables over one argument for ascending values of a second one, such as polars of an aerofoil for several Reynolds numbers.
 
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::{ForceFunction, TimeFunction};
+use lissom_mechanics::law::{Enclosure, Interval};
+use lissom_mechanics::registry::{ForceFunction, TimeFunction};
 
 use crate::functions::table::Table;
 

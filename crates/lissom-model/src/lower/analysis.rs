@@ -1,10 +1,10 @@
 //! Scheme, step size, scaling and limits from the table `[analysis]`.
 
-use lissom_core::newton::Limits;
-use lissom_core::scaling::{ScaleBy, ScalingChoice};
-use lissom_core::schemes::{self, Scheme, SchemeParameters, statics};
-use lissom_core::settings::Settings;
-use lissom_core::settings::{Controlled, StepControl};
+use lissom_system::schemes::{self, Scheme, SchemeParameters, statics};
+use lissom_system::settings::Limits;
+use lissom_system::settings::Settings;
+use lissom_system::settings::{Controlled, StepControl};
+use lissom_system::settings::{ScaleBy, ScalingChoice};
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Analysis, AnalysisKind, Document, Scaling, StepChoice};
@@ -95,7 +95,7 @@ pub(super) fn settings(document: &Document) -> Result<(Settings, Plan), Problem>
         of: choice.of,
     });
     let solver = analysis.solver.as_ref().map_or("sparse", |solver| solver.value.as_str());
-    let Some(solver) = lissom_core::solvers::kind(solver) else {
+    let Some(solver) = lissom_solver::kind(solver) else {
         return Err(Problem::error(analysis.span, format!("unknown solver `{solver}`")));
     };
     let settings = Settings {
@@ -116,7 +116,7 @@ pub(super) fn settings(document: &Document) -> Result<(Settings, Plan), Problem>
             tolerance: analysis.tolerance,
             max_iterations: analysis.max_iterations,
             disabled: analysis.disabled,
-            tuning: lissom_core::tuning::Tuning::default(),
+            tuning: lissom_system::tuning::Tuning::default(),
         },
         solver,
         threads: 1,
@@ -147,7 +147,7 @@ fn scheme(analysis: &Analysis) -> Result<Scheme, Problem> {
         .scheme
         .as_ref()
         .map_or(("generalized-alpha", analysis.span), |word| (&*word.value, word.span));
-    let fault = |error: lissom_core::registry::ParameterError| Problem::error(span, error.to_string());
+    let fault = |error: lissom_mechanics::registry::ParameterError| Problem::error(span, error.to_string());
     let given = |name: &str| {
         if analysis.parameters.has(name) {
             analysis.parameters.number(name).map(Some).map_err(fault)

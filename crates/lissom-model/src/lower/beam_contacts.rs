@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use lissom_core::contact::compliance::Compliance;
-use lissom_core::contact::pairs::PointOnSurface;
-use lissom_core::elements::Contribution;
-use lissom_core::elements::Element;
-use lissom_core::elements::beam::line::BeamLine;
-use lissom_core::elements::beam::section::Section;
-use lissom_core::elements::beam_contact::BeamContact;
-use lissom_core::elements::contact::ContactFriction;
-use lissom_core::elements::nearest_contact::{CarriedCurve, CarriedPoint, NearestContact};
-use lissom_core::joints::centerline::Centerline;
-use lissom_core::kinematics::{CarriedFrame, MAX_NODES, NodeId};
-use lissom_core::number::written;
-use lissom_core::system::Builder;
+use lissom_mechanics::contact::compliance::Compliance;
+use lissom_mechanics::contact::pairs::PointOnSurface;
+use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::elements::Element;
+use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_mechanics::elements::beam::section::Section;
+use lissom_mechanics::elements::beam_contact::BeamContact;
+use lissom_mechanics::elements::contact::ContactFriction;
+use lissom_mechanics::elements::nearest_contact::{CarriedCurve, CarriedPoint, NearestContact};
+use lissom_mechanics::joints::centerline::Centerline;
+use lissom_mechanics::kinematics::{CarriedFrame, MAX_NODES, NodeId};
+use lissom_mechanics::number::written;
 use lissom_motion::Vector3;
+use lissom_system::Builder;
 
 use super::contacts::{solids, surface, words};
 use super::names::Names;

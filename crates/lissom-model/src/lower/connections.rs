@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
-use lissom_core::joints::{self, JointKind};
-use lissom_core::kinematics::{Quantity, Subject};
-use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
-use lissom_core::signals::Argument;
-use lissom_core::system::{Builder, JointAttachment, PlaceOnTip};
+use lissom_mechanics::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
+use lissom_mechanics::joints::{self, JointKind};
+use lissom_mechanics::kinematics::{Quantity, Subject};
+use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value};
+use lissom_mechanics::signals::Argument;
+use lissom_system::{Builder, JointAttachment, PlaceOnTip};
 
 use super::names::{Names, parameter_problem};
 use super::order::by_name;

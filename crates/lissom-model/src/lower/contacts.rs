@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use lissom_core::contact::compliance::Compliance;
-use lissom_core::contact::curves::Segment;
-use lissom_core::contact::gap::Pair;
-use lissom_core::contact::pairs::{CurveOnSurface, EllipsoidOnPlane, PointOnSurface, RimOnPlane};
-use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Mesh, MeshError, Ring, Rod, Surface};
-use lissom_core::elements::Contribution;
-use lissom_core::elements::contact::{Contact, ContactFriction, ContactMotion, Dissipation};
-use lissom_core::elements::contact_resistance::ContactResistance;
-use lissom_core::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Subject};
-use lissom_core::signals::event::{Direction, Event};
-use lissom_core::signals::measurement::Component;
-use lissom_core::signals::{Argument, Signal};
-use lissom_core::system::Builder;
+use lissom_mechanics::contact::compliance::Compliance;
+use lissom_mechanics::contact::curves::Segment;
+use lissom_mechanics::contact::gap::Pair;
+use lissom_mechanics::contact::pairs::{CurveOnSurface, EllipsoidOnPlane, PointOnSurface, RimOnPlane};
+use lissom_mechanics::contact::surfaces::{Cuboid, HalfSpace, Mesh, MeshError, Ring, Rod, Surface};
+use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::elements::contact::{Contact, ContactFriction, ContactMotion, Dissipation};
+use lissom_mechanics::elements::contact_resistance::ContactResistance;
+use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Subject};
+use lissom_mechanics::signals::event::{Direction, Event};
+use lissom_mechanics::signals::measurement::Component;
+use lissom_mechanics::signals::{Argument, Signal};
 use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_system::Builder;
 use nalgebra::Vector2;
 
 use super::Lowered;
@@ -177,7 +177,7 @@ fn touch(
     contact: &Contact,
     held: DiscreteValueId,
     builder: &mut Builder,
-) -> Result<(), lissom_core::registry::ParameterError> {
+) -> Result<(), lissom_mechanics::registry::ParameterError> {
     let of = Arc::new(ContactMotion::new(contact));
     let mut signal = |component: usize, (text, slope): (&str, f64)| {
         let measured = builder.add_component(Component { of: of.clone(), component });

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use lissom_core::joints::Constraint as _;
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::{Parameters, Value};
-use lissom_core::relation::{MAX_COUPLED, Relation, RelationPoint};
-use lissom_core::signals::SignalFunction as _;
-use lissom_core::signals::coordinate::Of;
-use lissom_core::system::{Builder, State, System};
+use lissom_mechanics::joints::Constraint as _;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::law::{Enclosure, Interval};
+use lissom_mechanics::registry::{Parameters, Value};
+use lissom_mechanics::relation::{MAX_COUPLED, Relation, RelationPoint};
+use lissom_mechanics::signals::SignalFunction as _;
+use lissom_mechanics::signals::coordinate::Of;
+use lissom_system::{Builder, State, System};
 
 use super::names::Names;
 use super::signals::relative_components;
@@ -172,7 +172,7 @@ pub(super) fn check(document: &Document, system: &System, state: &State, problem
         let message = format!(
             "`{}` does not hold at the start: it misses by {}, with {}",
             coupling.name,
-            lissom_core::number::Written(violation),
+            lissom_mechanics::number::Written(violation),
             values.join(", ")
         );
         let help =

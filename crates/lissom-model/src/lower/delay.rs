@@ -1,9 +1,9 @@
 //! Delayed signals: the signal exists before all others, its expression after them, so that a delay breaks a loop of signals.
 
-use lissom_core::kinematics::Subject;
-use lissom_core::registry::ParameterError;
-use lissom_core::signals::{Argument, SignalId};
-use lissom_core::system::Builder;
+use lissom_mechanics::kinematics::Subject;
+use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::{Argument, SignalId};
+use lissom_system::Builder;
 
 use super::names::Names;
 use super::signals::{Reader, of_entry, signals_named};

@@ -5,10 +5,10 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::Subject;
-use lissom_core::registry::ParameterError;
-use lissom_core::signals::{Argument, DiscreteValueId, Sampling, Signal, SignalFunction};
-use lissom_core::system::Builder;
+use lissom_mechanics::kinematics::Subject;
+use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::{Argument, DiscreteValueId, Sampling, Signal, SignalFunction};
+use lissom_system::Builder;
 
 use crate::document::DiscreteFilter;
 

@@ -11,12 +11,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::beam::line::BeamLine;
-use lissom_core::elements::quadrature::gauss_lobatto;
-use lissom_core::elements::{Attached, force};
-use lissom_core::registry::{Function, Parameters, Value};
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_mechanics::elements::quadrature::gauss_lobatto;
+use lissom_mechanics::elements::{Attached, force};
+use lissom_mechanics::registry::{Function, Parameters, Value};
 use lissom_motion::Vector3;
+use lissom_system::Builder;
 
 use crate::document::{Beam, DistributedForce, Document};
 use crate::functions::{Ramp, of_expression};

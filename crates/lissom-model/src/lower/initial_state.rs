@@ -1,10 +1,10 @@
 //! Whether prescribed motions begin where their joints are, and go on without jumps of speed.
 
 use lissom_core::errors::Warning;
-use lissom_core::kinematics::{Quantity, Subject};
 use lissom_core::linearized::{LinearModel, steady};
-use lissom_core::settings::Settings;
-use lissom_core::system::{Drive, State, System};
+use lissom_mechanics::kinematics::{Quantity, Subject};
+use lissom_system::settings::Settings;
+use lissom_system::{Drive, State, System};
 
 use crate::document::{AnalysisKind, Component, Document};
 use crate::text::report::Problem;

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{self, Attached};
-use lissom_core::kinematics::Subject;
-use lissom_core::registry::{Parameters, Value};
-use lissom_core::signals::coordinate::{Coordinate, Of};
-use lissom_core::signals::event::{Direction, Event};
-use lissom_core::signals::{Argument, Signal, SignalFunction};
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::{self, Attached};
+use lissom_mechanics::kinematics::Subject;
+use lissom_mechanics::registry::{Parameters, Value};
+use lissom_mechanics::signals::coordinate::{Coordinate, Of};
+use lissom_mechanics::signals::event::{Direction, Event};
+use lissom_mechanics::signals::{Argument, Signal, SignalFunction};
+use lissom_system::Builder;
 
 use super::names::Names;
 use super::straight_line::Line;

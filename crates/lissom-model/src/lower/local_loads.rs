@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::Contribution;
-use lissom_core::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
-use lissom_core::kinematics::{CarriedFrame, DiscreteValueId};
-use lissom_core::registry::{Constant, Function};
-use lissom_core::signals::{Argument, SignalFunction};
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
+use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId};
+use lissom_mechanics::registry::{Constant, Function};
+use lissom_mechanics::signals::{Argument, SignalFunction};
 use lissom_motion::Motion;
+use lissom_system::Builder;
 
 use super::distributed;
 use super::names::Names;

@@ -1,10 +1,10 @@
 //! Components of outputs and of joints' coordinates that expressions name, as measurements.
 
-use lissom_core::kinematics::CoordinateId;
-use lissom_core::signals::MeasurementId;
-use lissom_core::signals::coordinate::Coordinate;
-use lissom_core::system::Builder;
-use lissom_core::system::element_quantity::Of;
+use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::signals::MeasurementId;
+use lissom_mechanics::signals::coordinate::Coordinate;
+use lissom_system::Builder;
+use lissom_system::element_quantity::Of;
 
 use super::names::{LaterMeasurement, Names};
 use super::signals::relative_components;

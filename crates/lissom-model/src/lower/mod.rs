@@ -31,13 +31,13 @@ mod superelements;
 use std::sync::Arc;
 
 use lissom_core::assembly::{AssemblyError, assemble};
-use lissom_core::elements::beam::section_error::{ExaminedBeams, SectionError};
 use lissom_core::errors::Warning;
-use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId};
-use lissom_core::settings::Settings;
-use lissom_core::system::accumulated::Accumulated;
-use lissom_core::system::{Builder, State, System};
+use lissom_mechanics::elements::beam::section_error::{ExaminedBeams, SectionError};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId};
 use lissom_motion::Motion;
+use lissom_system::accumulated::Accumulated;
+use lissom_system::settings::Settings;
+use lissom_system::{Builder, State, System};
 
 pub use contacts::FrictionPoints;
 

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use lissom_core::elements::beam::line::BeamLine;
-use lissom_core::elements::local_load::LocalLoad;
-use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
-use lissom_core::registry::ParameterError;
-use lissom_core::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
-use lissom_core::system::ElementId;
+use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_mechanics::elements::local_load::LocalLoad;
+use lissom_mechanics::kinematics::{CoordinateId, NodeId, Quantity};
+use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
+use lissom_system::ElementId;
 
 use crate::document::Component;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
@@ -89,7 +89,7 @@ impl Names {
                 .help("name a body, a point mass, a beam's end or `ground`")
         };
         match &reference.value {
-            NodeReference::Ground => Ok(lissom_core::kinematics::GROUND),
+            NodeReference::Ground => Ok(lissom_mechanics::kinematics::GROUND),
             NodeReference::Body(name) | NodeReference::PointMass(name) => {
                 self.nodes.get(name).copied().ok_or_else(|| unknown(name))
             }

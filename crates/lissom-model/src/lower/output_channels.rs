@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use lissom_core::system::accumulated::Accumulated;
-use lissom_core::system::{State, System};
+use lissom_system::accumulated::Accumulated;
+use lissom_system::{State, System};
 
 use crate::document::{AnalysisKind, Document};
 use crate::expression::Formula;

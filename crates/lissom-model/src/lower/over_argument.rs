@@ -1,8 +1,8 @@
 //! A table over an argument as a function of signals and of local loads.
 
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::ForceFunction;
-use lissom_core::signals::SignalFunction;
+use lissom_mechanics::law::{Enclosure, Interval};
+use lissom_mechanics::registry::ForceFunction;
+use lissom_mechanics::signals::SignalFunction;
 
 use crate::expression::Line;
 use crate::functions::table_family::TableFamily;

@@ -1,11 +1,11 @@
 //! Bodies, point masses and beams as nodes with mass and elements.
 
-use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
-use lissom_core::elements::inertia::Inertia;
-use lissom_core::kinematics::{Freedoms, Kinematics, LOCKED, NodeId};
-use lissom_core::system::{Builder, System};
+use lissom_mechanics::elements::beam::SectionLaw;
+use lissom_mechanics::elements::beam::line::{BeamLineDescription, beam_line};
+use lissom_mechanics::elements::inertia::Inertia;
+use lissom_mechanics::kinematics::{Freedoms, Kinematics, LOCKED, NodeId};
 use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw};
+use lissom_system::{Builder, System};
 
 use super::names::Names;
 use super::order::by_name;

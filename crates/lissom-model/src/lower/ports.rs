@@ -1,12 +1,12 @@
 //! What components are attached to: nodes, coordinates and beams of the system for the ports of their kind.
 
-use lissom_core::elements::Attached;
-use lissom_core::joints::slider::CarriedPoint;
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::ports::PortType;
-use lissom_core::signals::coordinate::Of;
-use lissom_core::system::{BeamChain, Builder};
+use lissom_mechanics::elements::Attached;
+use lissom_mechanics::joints::slider::CarriedPoint;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::ports::PortType;
+use lissom_mechanics::signals::coordinate::Of;
 use lissom_motion::Vector3;
+use lissom_system::{BeamChain, Builder};
 
 use super::names::{Names, parameter_problem};
 use crate::document::{Beam, Component, CoordinateName, Document};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::system::{Quantity, Reading, State, System};
+use lissom_system::{Quantity, Reading, State, System};
 
 use super::names::NamedReading;
 use crate::format::suggest;

@@ -3,8 +3,8 @@
 
 use lissom_core::consistent::mobility::{has_loops, mobility};
 use lissom_core::errors::Warning;
-use lissom_core::kinematics::Subject;
-use lissom_core::system::{State, System};
+use lissom_mechanics::kinematics::Subject;
+use lissom_system::{State, System};
 
 use crate::outputs::channels::Channel;
 use crate::outputs::kinds::OutputKind;

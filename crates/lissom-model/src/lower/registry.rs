@@ -1,9 +1,9 @@
 //! The core's tables of joints, springs, loads, schemes and solvers, in the words of the model file.
 
-use lissom_core::elements::{ElementKind, LOADS, SPRINGS};
-use lissom_core::joints::{self, JointKind};
-use lissom_core::registry::{Parameter, ParameterType};
-use lissom_core::schemes;
+use lissom_mechanics::elements::{ElementKind, LOADS, SPRINGS};
+use lissom_mechanics::joints::{self, JointKind};
+use lissom_mechanics::registry::{Parameter, ParameterType};
+use lissom_system::schemes;
 
 use crate::registry::{ChoiceEntry, KindEntry, Registry};
 
@@ -43,7 +43,7 @@ pub fn registry() -> Registry {
                 tolerance: kind.tolerance,
             })
             .collect(),
-        solvers: lissom_core::solvers::KINDS
+        solvers: lissom_solver::KINDS
             .iter()
             .map(|kind| ChoiceEntry {
                 name: kind.name,

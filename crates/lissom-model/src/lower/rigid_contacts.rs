@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::rigid_friction::{ContactGuard, Guard};
-use lissom_core::joints::rigid_contact::{RigidContact, RigidLaw};
-use lissom_core::kinematics::{CarriedFrame, Subject};
-use lissom_core::registry::ParameterError;
-use lissom_core::signals::event::{Direction, Event};
-use lissom_core::signals::{Argument, Signal};
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::rigid_friction::{ContactGuard, Guard};
+use lissom_mechanics::joints::rigid_contact::{RigidContact, RigidLaw};
+use lissom_mechanics::kinematics::{CarriedFrame, Subject};
+use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::event::{Direction, Event};
+use lissom_mechanics::signals::{Argument, Signal};
+use lissom_system::Builder;
 
 use super::contacts::{SolidPair, solid_pairs};
 use super::names::Names;

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CoordinateId, Quantity, Subject};
-use lissom_core::registry::ParameterError;
-use lissom_core::signals::coordinate::{Coordinate, Of};
-use lissom_core::signals::event::Event;
-use lissom_core::signals::{Argument, Sampling, Signal, SignalId};
-use lissom_core::system::Builder;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
+use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::coordinate::{Coordinate, Of};
+use lissom_mechanics::signals::event::Event;
+use lissom_mechanics::signals::{Argument, Sampling, Signal, SignalId};
+use lissom_system::Builder;
 
 use super::delay;
 use super::discrete_filter;

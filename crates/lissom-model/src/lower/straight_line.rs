@@ -1,6 +1,6 @@
 //! A signal that is a straight line over its only argument.
 
-use lissom_core::signals::SignalFunction;
+use lissom_mechanics::signals::SignalFunction;
 
 /// A straight line over its argument.
 #[derive(Clone, Copy, Debug)]

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::superelement::{InterfacePlace, SuperelementDescription, superelement};
-use lissom_core::kinematics::NodeId;
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::superelement::{InterfacePlace, SuperelementDescription, superelement};
+use lissom_mechanics::kinematics::NodeId;
 use lissom_motion::{Motion, Rotation};
+use lissom_system::Builder;
 
 use super::names::Names;
 use super::order::by_name;

@@ -3,7 +3,7 @@
 use super::plot::{Axis, Figure, Panel, file_name, quantity_of};
 use super::spectrum::Spectrum;
 use super::{Column, Record};
-use lissom_core::diagnostics::Diagnose;
+use lissom_mechanics::diagnostics::Diagnose;
 
 /// Results with the name that distinguishes them.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by `lissom-drawing`.
 
-use lissom_core::diagnostics::Diagnose;
 use lissom_drawing::{Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, Panel as ChartPanel, palette};
+use lissom_mechanics::diagnostics::Diagnose;
 
 use super::{Column, CurveRecord, Record};
 

@@ -1,6 +1,6 @@
 //! Results in memory, by columns; written to by a run, or read back from comma-separated values.
 
-use lissom_core::diagnostics::Diagnose;
+use lissom_mechanics::diagnostics::Diagnose;
 use std::io;
 
 use super::{Column, Writer};

@@ -181,7 +181,7 @@ fn paler(shade: [u8; 3], share: f64) -> [u8; 3] {
 
 /// A number in few digits.
 fn short(number: f64) -> String {
-    lissom_core::number::written(number, 4)
+    lissom_mechanics::number::written(number, 4)
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CarriedFrame, GROUND, Kinematics};
-use lissom_core::system::accumulated::{AcceptedStep, Accumulated};
+use lissom_mechanics::kinematics::{CarriedFrame, GROUND, Kinematics};
 use lissom_motion::{Rotation, Vector3};
+use lissom_system::accumulated::{AcceptedStep, Accumulated};
 
 use super::frames::{carried_frame, location_of};
 use super::location::Location;

@@ -1,8 +1,8 @@
 //! Names and units of the components of outputs. One rule: a component is called by a word, by the letter of a vector with
 //! the number of its axis, or by the axes x, y and z of a position; components of one output with the same word are numbered.
 
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::signals::coordinate::Of;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::signals::coordinate::Of;
 
 use crate::outputs::OutputQuantity;
 use crate::outputs::kinds::OutputKind;

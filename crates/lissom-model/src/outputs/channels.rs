@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use lissom_core::linearized::{LinearModel, OutputDerivatives};
-use lissom_core::simulation::Need;
-use lissom_core::system::{State, System};
+use lissom_system::Need;
+use lissom_system::{State, System};
 
 use crate::outputs::differences;
 use crate::outputs::kinds::{Feature, OutputKind};

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::System;
+use lissom_system::OutputDerivatives;
+use lissom_system::System;
 
 use super::derivatives::of_local;
 use super::frames::name_of;

@@ -10,9 +10,9 @@ use crate::outputs::contact_point::ContactPoint;
 use crate::outputs::entry::Output;
 use crate::outputs::kinds::{Declaration, Subject};
 use crate::text::report::Problem;
-use lissom_core::elements::Unknowns;
-use lissom_core::system::System;
+use lissom_mechanics::elements::Unknowns;
 use lissom_motion::Vector3;
+use lissom_system::System;
 
 /// Registry entry.
 pub(crate) const CONTACT_FORCE: Declaration = Declaration {

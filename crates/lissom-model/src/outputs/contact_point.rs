@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::Element;
-use lissom_core::elements::beam_contact::BeamContact;
-use lissom_core::elements::contact::{Contact, ContactForces};
-use lissom_core::elements::nearest_contact::NearestContact;
-use lissom_core::joints::rigid_contact::RigidContact;
-use lissom_core::kinematics::{DiscreteValueId, Kinematics};
+use lissom_mechanics::elements::Element;
+use lissom_mechanics::elements::beam_contact::BeamContact;
+use lissom_mechanics::elements::contact::{Contact, ContactForces};
+use lissom_mechanics::elements::nearest_contact::NearestContact;
+use lissom_mechanics::joints::rigid_contact::RigidContact;
+use lissom_mechanics::kinematics::{DiscreteValueId, Kinematics};
 
 /// An element of a contact.
 pub(crate) trait ContactElement: Element {

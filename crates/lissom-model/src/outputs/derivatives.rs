@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use lissom_core::kinematics::local_derivatives::LocalDerivatives;
-use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, MeasurementId, NodeId};
-use lissom_core::signals::Argument;
-use lissom_core::signals::measurement::{Component, Gradient};
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::System;
-use lissom_core::system::energy_derivatives::Slopes;
+use lissom_mechanics::kinematics::local_derivatives::LocalDerivatives;
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, MeasurementId, NodeId};
+use lissom_mechanics::signals::Argument;
+use lissom_mechanics::signals::measurement::{Component, Gradient};
+use lissom_system::OutputDerivatives;
+use lissom_system::System;
+use lissom_system::energy_derivatives::Slopes;
 
 /// Row of a multiplier.
 pub(super) fn multiplier_row(system: &System, multiplier: usize) -> usize {

@@ -7,10 +7,10 @@
 
 use std::ops::Bound;
 
-use lissom_core::kinematics::{GROUND, LOCKED, NodeId};
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::{State, System};
+use lissom_mechanics::kinematics::{GROUND, LOCKED, NodeId};
 use lissom_motion::{Motion, Vector6};
+use lissom_system::OutputDerivatives;
+use lissom_system::{State, System};
 
 use super::Evaluation;
 use super::derivatives::add;

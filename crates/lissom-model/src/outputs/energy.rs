@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::system::OutputDerivatives;
+use lissom_system::OutputDerivatives;
 
 use super::derivatives::{add_scaled, of_slopes};
 use super::{Build, Evaluation, OutputQuantity, WHOLE_MODEL};

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{DiscreteValueId, LOCKED, NodeMotion};
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::{State, System};
+use lissom_mechanics::kinematics::{DiscreteValueId, LOCKED, NodeMotion};
 use lissom_motion::{Motion, Vector6};
+use lissom_system::OutputDerivatives;
+use lissom_system::{State, System};
 
 use crate::lower::registry::registry;
 use crate::lower::{Lowered, lower};

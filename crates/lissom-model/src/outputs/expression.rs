@@ -1,7 +1,7 @@
 //! Expressions of components of other outputs.
 
-use lissom_core::signals::SignalFunction;
-use lissom_core::system::OutputDerivatives;
+use lissom_mechanics::signals::SignalFunction;
+use lissom_system::OutputDerivatives;
 
 use super::derivatives::add_scaled;
 use super::{Build, Evaluation, OutputQuantity};

@@ -3,12 +3,12 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_core::elements::beam::line::BeamLine;
-use lissom_core::kinematics::{CarriedFrame, GROUND, NodeId};
-use lissom_core::signals::frame_quantity::{Formula, FrameQuantity, Of};
-use lissom_core::signals::measurement::Measurement;
-use lissom_core::system::System;
+use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_mechanics::kinematics::{CarriedFrame, GROUND, NodeId};
+use lissom_mechanics::signals::frame_quantity::{Formula, FrameQuantity, Of};
+use lissom_mechanics::signals::measurement::Measurement;
 use lissom_motion::{Motion, Vector3};
+use lissom_system::System;
 
 use super::location::{BeamSection, Location, ObservedSection};
 use super::touched::Touched;

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity};
-use lissom_core::signals::frame_quantity::{FrameQuantity, Of};
-use lissom_core::signals::measurement::Measurement;
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity};
+use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of};
+use lissom_mechanics::signals::measurement::Measurement;
 use lissom_motion::Motion;
 
 use super::frames::name_of;

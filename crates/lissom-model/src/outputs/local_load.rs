@@ -8,10 +8,10 @@ use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
 use crate::outputs::entry::Output;
 use crate::outputs::kinds::{Declaration, Subject};
 use crate::text::report::Problem;
-use lissom_core::elements::local_load::LocalLoad;
-use lissom_core::elements::{Element, Unknowns};
-use lissom_core::system::System;
+use lissom_mechanics::elements::local_load::LocalLoad;
+use lissom_mechanics::elements::{Element, Unknowns};
 use lissom_motion::Vector3;
+use lissom_system::System;
 
 /// Registry entry.
 pub(crate) const LOCAL_LOAD: Declaration = Declaration {

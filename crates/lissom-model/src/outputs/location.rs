@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::beam::line::BeamProbe;
-use lissom_core::elements::shape::lagrange;
-use lissom_core::kinematics::{CarriedFrame, Kinematics, NodeId, NodeMotion};
-use lissom_core::signals::MovingFrame;
-use lissom_core::signals::frame_quantity::Formula;
+use lissom_mechanics::elements::beam::line::BeamProbe;
+use lissom_mechanics::elements::shape::lagrange;
+use lissom_mechanics::kinematics::{CarriedFrame, Kinematics, NodeId, NodeMotion};
+use lissom_mechanics::signals::MovingFrame;
+use lissom_mechanics::signals::frame_quantity::Formula;
 use lissom_motion::{Motion, Vector3, rotation_part, screw, translation_part};
 
 /// A position that moves with the model.

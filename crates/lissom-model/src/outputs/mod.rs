@@ -36,16 +36,16 @@ pub(crate) mod work;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::elements::beam::line::BeamLine;
-use lissom_core::elements::local_load::LocalLoad;
-use lissom_core::elements::superelement::Deformation;
-use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
-use lissom_core::signals::Argument;
-use lissom_core::signals::measurement::{Component, Measurement};
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::accumulated::Accumulated;
-use lissom_core::system::element_quantity;
-use lissom_core::system::{ElementId, State, System};
+use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_mechanics::elements::local_load::LocalLoad;
+use lissom_mechanics::elements::superelement::Deformation;
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_mechanics::signals::Argument;
+use lissom_mechanics::signals::measurement::{Component, Measurement};
+use lissom_system::OutputDerivatives;
+use lissom_system::accumulated::Accumulated;
+use lissom_system::element_quantity;
+use lissom_system::{ElementId, State, System};
 
 use nalgebra::DMatrix;
 

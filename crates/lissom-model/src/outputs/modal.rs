@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::signals::measurement::Measurement;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::signals::measurement::Measurement;
 
 use super::Deformed;
 use super::frames::name_of;

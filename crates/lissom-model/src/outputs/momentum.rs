@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CarriedFrame, LOCKED};
-use lissom_core::system::OutputDerivatives;
+use lissom_mechanics::kinematics::{CarriedFrame, LOCKED};
 use lissom_motion::{Rotation, Vector3};
+use lissom_system::OutputDerivatives;
 
 use super::derivatives::{add, add_scaled, of_slopes};
 use super::frames::carried_frame;

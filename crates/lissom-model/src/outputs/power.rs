@@ -3,12 +3,12 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_core::kinematics::CoordinateId;
-use lissom_core::signals::Argument;
-use lissom_core::signals::measurement::Measurement;
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::element_quantity::Of;
-use lissom_core::system::{ElementId, ScaledPower, System};
+use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::signals::Argument;
+use lissom_mechanics::signals::measurement::Measurement;
+use lissom_system::OutputDerivatives;
+use lissom_system::element_quantity::Of;
+use lissom_system::{ElementId, ScaledPower, System};
 
 use super::derivatives::{add, add_argument, add_scaled, multiplier_row, of_gradient};
 use super::frames::name_of;

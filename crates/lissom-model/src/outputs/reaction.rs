@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::joints::Equations;
-use lissom_core::joints::attached::AttachedJoint;
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::{State, System};
+use lissom_mechanics::joints::Equations;
+use lissom_mechanics::joints::attached::AttachedJoint;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
 use lissom_motion::{rotation_part, translation_part};
+use lissom_system::OutputDerivatives;
+use lissom_system::{State, System};
 
 use super::derivatives::{add, multiplier_row, of_local};
 use super::frames::name_of;

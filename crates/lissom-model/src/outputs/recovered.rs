@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::superelement::Deformation;
-use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity, USUAL_UNKNOWNS};
-use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
-use lissom_core::system::OutputDerivatives;
+use lissom_mechanics::elements::superelement::Deformation;
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity, USUAL_UNKNOWNS};
+use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
+use lissom_system::OutputDerivatives;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::Deformed;

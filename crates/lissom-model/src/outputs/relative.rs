@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::signals::coordinate::{Coordinate, Of};
-use lissom_core::signals::measurement::Measurement;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::signals::coordinate::{Coordinate, Of};
+use lissom_mechanics::signals::measurement::Measurement;
 
 use super::frames::name_of;
 use super::{Build, Found, NamesAndUnits, OutputQuantity, Resolver, Subjects};

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use lissom_core::joints::MAX_COORDINATES;
-use lissom_core::joints::slider::Slider;
-use lissom_core::kinematics::{CoordinateId, Kinematics, Quantity};
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::System;
+use lissom_mechanics::joints::MAX_COORDINATES;
+use lissom_mechanics::joints::slider::Slider;
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Quantity};
+use lissom_system::OutputDerivatives;
+use lissom_system::System;
 
 use super::derivatives::add;
 use super::frames::name_of;

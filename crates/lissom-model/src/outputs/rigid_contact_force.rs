@@ -1,9 +1,9 @@
 //! Gap and force of a rigid contact between two parts.
 
-use lissom_core::joints::rigid_contact::Mode;
-use lissom_core::kinematics::NodeId;
-use lissom_core::system::System;
+use lissom_mechanics::joints::rigid_contact::Mode;
+use lissom_mechanics::kinematics::NodeId;
 use lissom_motion::Vector3;
+use lissom_system::System;
 
 use super::touched::Touched;
 use super::{Evaluation, OutputQuantity};

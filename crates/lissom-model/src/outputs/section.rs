@@ -3,8 +3,8 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{Kinematics, NodeId};
-use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
+use lissom_mechanics::kinematics::{Kinematics, NodeId};
+use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 
 use super::frames::{node_of, section};
 use super::location::BeamSection;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::Kinematics;
-use lissom_core::signals::Argument;
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::System;
+use lissom_mechanics::kinematics::Kinematics;
+use lissom_mechanics::signals::Argument;
+use lissom_system::OutputDerivatives;
+use lissom_system::System;
 
 use super::derivatives::add_argument;
 use super::frames::name_of;

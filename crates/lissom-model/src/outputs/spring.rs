@@ -3,11 +3,11 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::signals::measurement::Measurement;
-use lissom_core::system::OutputDerivatives;
-use lissom_core::system::System;
-use lissom_core::system::element_quantity::Of;
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::signals::measurement::Measurement;
+use lissom_system::OutputDerivatives;
+use lissom_system::System;
+use lissom_system::element_quantity::Of;
 
 use super::derivatives::{add, multiplier_row};
 use super::frames::name_of;

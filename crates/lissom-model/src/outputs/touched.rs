@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use lissom_core::kinematics::{CoordinateId, NodeId};
+use lissom_mechanics::kinematics::{CoordinateId, NodeId};
 
 /// The unknowns a quantity depends on.
 #[derive(Default)]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::system::accumulated::{AcceptedStep, Accumulated};
+use lissom_system::accumulated::{AcceptedStep, Accumulated};
 
 use super::Build;
 use super::frames::name_of;

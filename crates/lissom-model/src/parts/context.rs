@@ -3,7 +3,7 @@
 use std::cell::{Ref, RefCell};
 use std::collections::BTreeMap;
 
-use lissom_core::registry::Function;
+use lissom_mechanics::registry::Function;
 
 use crate::files::library::Library;
 use crate::format::suggest;

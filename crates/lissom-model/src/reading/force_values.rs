@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::Switch;
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::{Constant, Force, ForceFunction};
-use lissom_core::signals::SignalFunction;
+use lissom_mechanics::kinematics::Switch;
+use lissom_mechanics::law::{Enclosure, Interval};
+use lissom_mechanics::registry::{Constant, Force, ForceFunction};
+use lissom_mechanics::signals::SignalFunction;
 
 use crate::expression::Formula;
 use crate::format::suggest;

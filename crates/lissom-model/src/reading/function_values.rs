@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::registry::Function;
+use lissom_mechanics::registry::Function;
 
 use crate::expression::Formula;
 use crate::functions::of_expression;

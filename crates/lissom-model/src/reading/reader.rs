@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
+use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
 use lissom_motion::{Matrix3, Vector3};
 
 use crate::expression::Formula;

@@ -265,7 +265,7 @@ mod tests {
             summary: "Turns about an axis.",
             sample: "axis = [0, 0, 1]",
             parameters: &[],
-            ports: lissom_core::ports::Ports::AXIS,
+            ports: lissom_mechanics::ports::Ports::AXIS,
         };
         const SCHEME: ChoiceEntry =
             ChoiceEntry { name: "radau-iia", summary: "Third order.", parameters: &[], tolerance: None };

@@ -15,8 +15,8 @@ mod solids;
 mod superelements;
 mod symbols;
 
-use lissom_core::diagnostics::Diagnose;
-use lissom_core::kinematics::{GROUND, NodeId};
+use lissom_mechanics::diagnostics::Diagnose;
+use lissom_mechanics::kinematics::{GROUND, NodeId};
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Positions of named parts among the nodes.
 
-use lissom_core::kinematics::{GROUND, NodeId};
+use lissom_mechanics::kinematics::{GROUND, NodeId};
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 

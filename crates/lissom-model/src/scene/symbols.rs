@@ -11,7 +11,7 @@ use crate::document::{Attachment, Component, Document, NodeLocation};
 use crate::reading::node_reference::NodeReference;
 use crate::sections::Outline;
 use crate::text::report::Located;
-use lissom_core::kinematics::{GROUND, NodeId};
+use lissom_mechanics::kinematics::{GROUND, NodeId};
 
 /// Solids that one node carries.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

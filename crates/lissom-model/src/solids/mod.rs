@@ -4,7 +4,7 @@ pub(crate) mod surface;
 
 use std::sync::Arc;
 
-use lissom_core::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
+use lissom_mechanics::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Matrix3, Motion, Vector3};
 
 use surface::Surface;

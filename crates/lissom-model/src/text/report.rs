@@ -1,9 +1,9 @@
 //! Problems of a model file with the positions that they underline, collected in a report.
 //! Independent of the meaning of keys.
 
-use lissom_core::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
 use lissom_core::errors::Warning;
-use lissom_core::kinematics::Subject;
+use lissom_mechanics::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
+use lissom_mechanics::kinematics::Subject;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;

@@ -5,7 +5,7 @@ mod stl;
 
 use std::collections::HashMap;
 
-use lissom_core::contact::curves::Curve;
+use lissom_mechanics::contact::curves::Curve;
 use lissom_motion::{Motion, Vector3};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -263,7 +263,7 @@ fn ears(outline: &[Vector2<f64>]) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lissom_core::contact::surfaces::Polygon;
+    use lissom_mechanics::contact::surfaces::Polygon;
     use std::sync::Arc;
 
     /// By the divergence theorem: positive where triangles are seen from outside.

@@ -26,7 +26,7 @@ pub struct DensePolynomial {
 
 /// Linear combinations of the increments and the start at a step fraction; of velocities, that of a change of q'_0 in positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct DenseWeights {
+pub struct DenseWeights {
     /// The increment.
     pub place: Combination,
     /// q' minus that at the start.
@@ -39,7 +39,7 @@ pub(crate) struct DenseWeights {
 
 impl DensePolynomial {
     /// Through the start and stages at these abscissae.
-    pub(crate) fn new(abscissae: &[f64]) -> Self {
+    pub fn new(abscissae: &[f64]) -> Self {
         let knots: Vec<f64> = std::iter::once(0.0).chain(abscissae.iter().copied()).collect();
         let basis = |own: usize| {
             let mut powers = vec![1.0];
@@ -56,12 +56,12 @@ impl DensePolynomial {
     }
 
     /// Derivatives of w_1 … w_S at the start.
-    pub(crate) fn slopes_at_start(&self) -> impl Iterator<Item = f64> {
+    pub fn slopes_at_start(&self) -> impl Iterator<Item = f64> {
         self.basis[1..].iter().map(|powers| powers[1])
     }
 
     /// The motion at a step fraction, of the scheme with these stages.
-    pub(crate) fn at(&self, x: f64, stages: &[Stage]) -> DenseWeights {
+    pub fn at(&self, x: f64, stages: &[Stage]) -> DenseWeights {
         let mut weights = DenseWeights::default();
         for (knot, powers) in self.basis.iter().enumerate() {
             let value = powers.iter().rev().fold(0.0, |sum, power| sum * x + power);

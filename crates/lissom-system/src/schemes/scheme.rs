@@ -4,7 +4,7 @@
 use num_complex::Complex64;
 
 use super::dense_polynomial::DensePolynomial;
-use crate::kinematics::step_stages::STAGES;
+use lissom_mechanics::kinematics::step_stages::STAGES;
 
 /// Maximum number of stages of a scheme.
 pub const MAX_STAGES: usize = 7;
@@ -24,7 +24,7 @@ pub struct Combination {
 
 impl Combination {
     /// Of the increments alone, with these coefficients.
-    pub(crate) fn of_increments(coefficients: &[f64]) -> Self {
+    pub fn of_increments(coefficients: &[f64]) -> Self {
         let mut increments = [0.0; MAX_STAGES];
         increments[..coefficients.len()].copy_from_slice(coefficients);
         Self { increments, ..Self::default() }
@@ -118,13 +118,13 @@ pub struct Coupling {
 
 impl Coupling {
     /// One stage with these weights.
-    pub(crate) fn single(weights: Weights<f64>) -> Self {
+    pub fn single(weights: Weights<f64>) -> Self {
         let alone = Combination::of_increments(&[1.0]).increments;
         Self { systems: vec![StageSystem::Real(Decoupled { weights, left: alone, right: alone })] }
     }
 
     /// Re(1/∂q''/∂z) of the first system: for vibrations with h ω ≪ 1, what its matrix adds to the mass over the stiffness.
-    pub(crate) fn inertial_share(&self) -> f64 {
+    pub fn inertial_share(&self) -> f64 {
         match self.systems.first() {
             Some(StageSystem::Real(of)) => 1.0 / of.weights.acceleration,
             Some(StageSystem::Complex(of)) => of.weights.acceleration.re / of.weights.acceleration.norm_sqr(),
@@ -151,7 +151,7 @@ pub struct Tableau {
 
 impl Tableau {
     /// Whether the last stage is the end of the step in every respect.
-    pub(crate) fn is_stiffly_accurate(&self) -> bool {
+    pub fn is_stiffly_accurate(&self) -> bool {
         self.dissipation == 1.0
     }
 }

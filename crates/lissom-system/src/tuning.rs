@@ -54,13 +54,13 @@ pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 9] = [
 ];
 
 /// Maximum number of halvings of a planned step, a load step or a correction.
-pub(crate) const MAX_HALVINGS: u32 = 12;
+pub const MAX_HALVINGS: u32 = 12;
 
 /// Maximum number of iterations that end by their own criteria: solutions need far fewer, and where there is none this one ends them.
-pub(crate) const MAX_ITERATIONS: usize = 100;
+pub const MAX_ITERATIONS: usize = 100;
 
 /// Inverse iterations at a shift close to an eigenvalue; one is sufficient at a distance of 1e-10.
-pub(crate) const INVERSE_ITERATIONS: usize = 4;
+pub const INVERSE_ITERATIONS: usize = 4;
 
 /// Their names.
 pub const WORDS: [&str; TUNING_PARAMETERS.len()] = {

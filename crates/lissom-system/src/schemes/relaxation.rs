@@ -7,7 +7,7 @@
 use super::scheme::{Combination, Coupling, Parametrization, Scheme, Stage, Weights};
 
 /// The scheme with zero velocity and the increment as acceleration.
-pub(crate) fn relaxation() -> Scheme {
+pub fn relaxation() -> Scheme {
     Scheme {
         name: "relaxation".to_owned(),
         stages: vec![Stage {

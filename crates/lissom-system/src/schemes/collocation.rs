@@ -21,8 +21,8 @@ use super::scheme::{
     Weights,
 };
 
-use crate::round_off;
 use crate::tuning::{Tuning, TuningParameter};
+use lissom_mechanics::round_off;
 
 /// Of the phase at which an oscillation has that error: motions consist of more than one, and errors grow with a higher power of the
 /// frequency than their estimates.

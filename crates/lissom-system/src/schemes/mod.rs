@@ -3,12 +3,12 @@
 //! A scheme is a table of coefficients: at each stage, velocity and acceleration are linear combinations of the
 //! increments since the start of the step (the unknowns) and of the state at the start.
 
-pub(crate) mod collocation;
-pub(crate) mod dense_polynomial;
+pub mod collocation;
+pub mod dense_polynomial;
 pub mod energy_decaying;
 pub mod generalized_alpha;
 pub mod radau_iia;
-pub(crate) mod relaxation;
+pub mod relaxation;
 mod scheme;
 pub mod statics;
 
