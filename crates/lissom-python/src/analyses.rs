@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use lissom::analysis::{ANALYSES, Results};
+use lissom::analyses::{ANALYSES, Results};
 use lissom::linearize::{LinearizeRequest, linearize_session};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
 use lissom::{Document, Record, Session};

@@ -2,7 +2,8 @@
 
 use lissom_core::diagnostics::Entry;
 
-use crate::{analysis_warning, buckling, campbell, failures, gradient, modes, reduce, response};
+use crate::analyses::{buckling, campbell, gradient, modes, reduce, response};
+use crate::{analysis_warning, failures};
 
 /// All codes of warnings and failures, with their meaning.
 pub fn catalogue() -> impl Iterator<Item = &'static Entry> {

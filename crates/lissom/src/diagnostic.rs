@@ -39,8 +39,8 @@ mod tests {
 
     use super::*;
     use crate::RunError;
-    use crate::campbell::CampbellError;
-    use crate::modes::ModesError;
+    use crate::analyses::campbell::CampbellError;
+    use crate::analyses::modes::ModesError;
 
     #[test]
     fn what_contains_a_failure_has_its_diagnostic() {

@@ -6,19 +6,19 @@
 use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity};
 
+use crate::analyses::gradient::GradientError;
+use crate::analyses::path::{PathRunError, PathSessionError};
+use crate::analyses::ports::PortError;
 use crate::builder::ForeignId;
 use crate::checkpoint::CheckpointError;
 use crate::command_error::CommandError;
 use crate::export::ExportError;
 use crate::fmu::FmuError;
 use crate::folder::FolderError;
-use crate::gradient::GradientError;
 use crate::import::ImportError;
 use crate::joint_coordinates::JointCoordinateError;
 use crate::motion::{MotionError, VERSION};
-use crate::path::{PathRunError, PathSessionError};
 use crate::picture::PictureError;
-use crate::ports::PortError;
 use crate::prepared::PartError;
 use crate::prepared::StartError;
 use crate::report::RunError;

@@ -112,13 +112,11 @@
 //! on all cores.
 
 mod archive;
-pub mod buckling;
 pub mod builder;
-mod operating_point;
 
+pub mod analyses;
 pub mod analysis;
 mod analysis_warning;
-pub mod campbell;
 mod catalogue;
 mod checkpoint;
 mod command_error;
@@ -129,23 +127,16 @@ pub mod fmu;
 mod folder;
 mod folder_page;
 pub mod geometry;
-pub mod gradient;
 pub mod import;
 mod joint_coordinates;
 mod joint_dynamics;
-pub mod linearize;
 mod model;
-pub mod modes;
 pub mod motion;
 mod parquet;
-pub mod path;
 pub mod picture;
-mod ports;
 mod prepared;
 mod recorded_modes;
-pub mod reduce;
 mod report;
-pub mod response;
 mod schedule;
 pub mod sealed;
 mod session;
@@ -157,6 +148,7 @@ pub mod telemetry;
 mod timings;
 pub mod view;
 
+pub use analyses::{buckling, campbell, gradient, linearize, modes, path, reduce, response};
 pub use analysis_warning::AnalysisWarning;
 pub use catalogue::catalogue;
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};

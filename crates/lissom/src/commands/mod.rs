@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn every_analysis_has_a_command() {
         let line = Line::command();
-        for analysis in lissom::analysis::ANALYSES {
+        for analysis in lissom::analyses::ANALYSES {
             assert!(line.find_subcommand(analysis.name).is_some(), "{}", analysis.name);
         }
     }

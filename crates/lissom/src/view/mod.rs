@@ -2,6 +2,7 @@
 //!
 //! The page itself is bundled from `viewer/`; here the results are inserted.
 
+pub(crate) mod campbell;
 pub(crate) mod modes;
 mod packed;
 
@@ -11,7 +12,6 @@ use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::campbell::page as campbell;
 use crate::diagnostic::facts;
 use crate::motion::{Motion, MotionError};
 

@@ -22,7 +22,7 @@ use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::session::SessionError;
 
-pub use crate::operating_point::OperatingPoint;
+pub use crate::analyses::operating_point::OperatingPoint;
 pub(crate) use report::shapes_table;
 
 /// Number of shapes that are drawn.

@@ -1,7 +1,5 @@
 //! Analyses without time steps: what each declares. Its command, its results folder and its function in Python are made from this.
 
-mod registry;
-
 use std::fmt::Display;
 use std::path::Path;
 use std::time::Duration;
@@ -16,8 +14,6 @@ use toml::de::ValueDeserializer;
 use crate::command_error::CommandError;
 use crate::folder::ResultFolder;
 use crate::model::{Model, Override};
-
-pub use registry::{ANALYSES, Outcome, Registered, Results};
 
 /// The request of an analysis. With the feature `command-line` its fields are the options of the command.
 pub trait Analysis: DeserializeOwned {

@@ -14,10 +14,10 @@ use lissom_model::lower::{Lowered, lower};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analyses::modes::shapes_table;
 use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
-use crate::modes::shapes_table;
 
 /// First step of the load factor towards one, and maximum number of steps.
 const FIRST: f64 = 0.25;

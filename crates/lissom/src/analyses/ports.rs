@@ -6,8 +6,8 @@ use lissom_core::system::OutputDerivatives;
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower};
 
-use crate::modes::ModesError;
-use crate::operating_point::LinearizationPoint;
+use crate::analyses::modes::ModesError;
+use crate::analyses::operating_point::LinearizationPoint;
 use crate::session::columns;
 use lissom_model::output::Column;
 

@@ -10,9 +10,9 @@ use lissom_model::output::{FigureError, Graphic};
 use serde_json::{Value, json};
 
 use super::figure::{CampbellLine, CampbellPlot};
-use super::page::common_whirl;
 use super::{CampbellReport, Crossing, Point, PointMode, of_line};
 use crate::analysis::AnalysisReport;
+use crate::view::campbell::common_whirl;
 
 impl CampbellReport {
     /// The table `campbell.csv`: value, rotation [Hz], line from 1, frequency [Hz] and damping ratio in the axes of the nodes,

@@ -1,7 +1,6 @@
 //! Campbell diagram: natural frequencies and damping over a parameter, with modes tracked by their shapes.
 
 mod figure;
-pub(crate) mod page;
 mod report;
 
 use std::str::FromStr;
@@ -12,13 +11,13 @@ use lissom_core::linearized::{Mode, ModeKind, ModeOptions, Whirl};
 use lissom_model::Report;
 use serde::Deserialize;
 
+use crate::analyses::modes::{ModesError, Reliable, reliable};
+use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
 #[cfg(feature = "command-line")]
 use crate::analysis::counts;
 use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
-use crate::modes::{ModesError, Reliable, reliable};
-use crate::operating_point::{LinearizationPoint, OperatingPoint};
 
 /// Modes with a smaller likeness of shapes do not belong to one line.
 const ALIKE: f64 = 0.3;

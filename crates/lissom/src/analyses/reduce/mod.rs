@@ -17,11 +17,11 @@ use lissom_model::document::{Attachment, Component, NodeReference};
 use lissom_model::lower::{Lowered, Names, lower, lower_locked};
 use serde::Deserialize;
 
+use crate::analyses::modes::ModesError;
+use crate::analyses::operating_point::OperatingPoint;
 use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
-use crate::modes::ModesError;
-use crate::operating_point::OperatingPoint;
 
 /// Modes for corrections: this multiple of the requested number, plus a constant. The contribution of further modes decreases
 /// with the square of their number.

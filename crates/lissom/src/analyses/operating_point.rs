@@ -13,8 +13,8 @@ use lissom_model::lower::{Lowered, lower};
 use lissom_motion::{rotation_part, translation_part};
 use serde::Deserialize;
 
+use crate::analyses::modes::ModesError;
 use crate::analysis_warning::AnalysisWarning;
-use crate::modes::ModesError;
 use crate::session::Session;
 
 /// A state at rest whose unbalanced forces displace it by less than this fraction of the model's length is in equilibrium …

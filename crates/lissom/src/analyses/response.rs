@@ -13,12 +13,12 @@ use num_complex::Complex64;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analyses::modes::ModesError;
+use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
+use crate::analyses::ports::{self, Input, Observed, PortError};
 use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
-use crate::modes::ModesError;
-use crate::operating_point::{LinearizationPoint, OperatingPoint};
-use crate::ports::{self, Input, Observed, PortError};
 
 /// Default number of frequencies.
 pub const DEFAULT_POINTS: usize = 400;

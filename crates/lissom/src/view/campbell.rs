@@ -78,7 +78,7 @@ pub(crate) fn read(table: &str, summary: &Value) -> Option<Diagram> {
 }
 
 /// The word for the whirl of a line from those of its modes at nonzero speeds: `changes` if they differ.
-pub(super) fn common_whirl<'w>(mut words: impl Iterator<Item = &'w str>) -> &'w str {
+pub(crate) fn common_whirl<'w>(mut words: impl Iterator<Item = &'w str>) -> &'w str {
     let first = words.next().unwrap_or("none");
     if words.all(|word| word == first) { first } else { "changes" }
 }

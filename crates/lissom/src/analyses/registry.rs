@@ -5,16 +5,16 @@ use std::time::{Duration, Instant};
 use lissom_model::Document;
 use lissom_model::output::Summary;
 
-use super::{Analysis, AnalysisError, AnalysisReport};
-use crate::buckling::BucklingRequest;
-use crate::campbell::CampbellRequest;
+use crate::analyses::buckling::BucklingRequest;
+use crate::analyses::campbell::CampbellRequest;
+use crate::analyses::gradient::GradientRequest;
+use crate::analyses::linearize::LinearizeRequest;
+use crate::analyses::modes::ModeRequest;
+use crate::analyses::reduce::ReduceRequest;
+use crate::analyses::response::ResponseRequest;
+use crate::analysis::{self, Analysis, AnalysisError, AnalysisReport};
 use crate::diagnostic::with_code;
-use crate::gradient::GradientRequest;
-use crate::linearize::LinearizeRequest;
 use crate::model::{Model, Override};
-use crate::modes::ModeRequest;
-use crate::reduce::ReduceRequest;
-use crate::response::ResponseRequest;
 
 /// All analyses. On the command line each is also a line of `commands`.
 pub const ANALYSES: &[Registered] = &[
@@ -61,7 +61,7 @@ impl Results {
     ) -> Self {
         Self {
             tables: report.tables(),
-            summary: super::summary::<A>(report, wall, name, overrides, document),
+            summary: analysis::summary::<A>(report, wall, name, overrides, document),
             warnings: report.warnings().iter().map(with_code).collect(),
         }
     }
@@ -78,7 +78,7 @@ fn boxed(error: impl AnalysisError + 'static) -> Box<dyn AnalysisError> {
 }
 
 fn compute<A: Analysis>(model: &Model, overrides: &[Override], request: &str) -> Outcome {
-    let request: A = super::request(request).map_err(boxed)?;
+    let request: A = analysis::request(request).map_err(boxed)?;
     let began = Instant::now();
     let report = request.compute(model, overrides).map_err(boxed)?;
     let document = model.document(overrides).map_err(boxed)?;

@@ -1,0 +1,15 @@
+//! The analyses of a model other than its own over time: a file or folder for each, and their table.
+
+pub mod buckling;
+pub mod campbell;
+pub mod gradient;
+pub mod linearize;
+pub mod modes;
+mod operating_point;
+pub mod path;
+pub(crate) mod ports;
+pub mod reduce;
+mod registry;
+pub mod response;
+
+pub use registry::{ANALYSES, Outcome, Registered, Results};
