@@ -4,26 +4,12 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use lissom_model::files;
-use lissom_model::output::Record;
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
 use crate::folder::{CAMPBELL, EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
-use crate::motion::{Motion, MotionError};
+use crate::motion::{Motion, MotionError, RecordedRun};
 use crate::view::{Notice, Results};
-
-/// A run with its motion, read back from a folder of results.
-#[derive(Clone, Debug)]
-pub struct RecordedRun {
-    /// One line about the model; empty for none.
-    pub title: String,
-    /// The scene of the model.
-    pub scene: Scene,
-    /// Its motion.
-    pub motion: Motion,
-    /// The table of results.
-    pub record: Record,
-}
 
 impl ResultFolder {
     /// A run with its motion.

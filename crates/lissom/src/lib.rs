@@ -155,7 +155,6 @@ pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFil
 pub use command_error::CommandError;
 pub use diagnostic::with_code;
 pub use folder::{FolderError, ResultFolder, protect_results};
-pub use folder_page::RecordedRun;
 pub use joint_coordinates::{JointCoordinateError, JointCoordinates};
 pub use joint_dynamics::JointDynamics;
 pub use lissom_core as core;
@@ -164,6 +163,7 @@ pub use lissom_model::files::FileError;
 pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
+pub use motion::RecordedRun;
 pub use prepared::{PartError, Prepared, StartError};
 pub use recorded_modes::RecordedModes;
 pub use report::{EnergyChange, RunError, RunReport, Stopped};

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 
 use super::buffer::Buffer;
 use super::{ExportError, Format, Sink, chosen_frames, poses};
-use crate::folder_page::RecordedRun;
 use crate::geometry::{Carrier, Colour, Geometry, Mesh, Piece, Sweep, span, turn_to};
+use crate::motion::RecordedRun;
 use crate::picture::shade_of;
 use lissom_core::kinematics::NodeId;
 

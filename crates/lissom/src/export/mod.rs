@@ -1,6 +1,7 @@
 //! Results for other programs. A format is a file here and a line in [`FORMATS`].
 
 mod buffer;
+mod formats;
 mod gltf;
 mod netcdf;
 pub(crate) mod npy;
@@ -9,14 +10,14 @@ mod parquet;
 mod vtk;
 
 use lissom_core::diagnostics::Diagnose;
-use std::path::{Path, PathBuf};
-
-use lissom_model::files::{self, FileError};
+use lissom_model::files::FileError;
 use lissom_motion::Motion as Pose;
 
-use crate::folder_page::RecordedRun;
-use crate::motion::Motion;
+use crate::motion::{Motion, RecordedRun};
 use lissom_core::kinematics::NodeId;
+
+pub use formats::FORMATS;
+pub(crate) use formats::files_in;
 
 /// Writes a file, given its name below the target and its bytes.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), FileError> + 'a;
@@ -52,26 +53,6 @@ pub struct Format {
     pub write: fn(&RecordedRun, usize, &mut Sink<'_>) -> Result<(), ExportError>,
 }
 
-/// All formats.
-pub static FORMATS: &[Format] = &[gltf::FORMAT, netcdf::FORMAT, npz::FORMAT, parquet::FORMAT, vtk::FORMAT];
-
-/// Files of earlier exports in a folder of results.
-pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {
-    let of = |format: &Format| -> Vec<PathBuf> {
-        let target = folder.join(format.target);
-        if !format.is_folder {
-            return vec![target];
-        }
-        // Other files are kept.
-        let is_own = |path: &PathBuf| {
-            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            format.files.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
-        };
-        files::entries(&target).filter(is_own).collect()
-    };
-    FORMATS.iter().flat_map(of).collect()
-}
-
 /// At most this number of frames of a motion, including its first and last, at equal distances.
 fn chosen_frames(motion: &Motion, most: usize) -> Vec<usize> {
     let count = motion.times().len();
@@ -84,19 +65,4 @@ fn chosen_frames(motion: &Motion, most: usize) -> Vec<usize> {
 /// Poses of all nodes in a frame.
 fn poses(motion: &Motion, frame: usize) -> Vec<Pose> {
     NodeId::first(motion.reference().len()).map(|node| motion.pose(frame, node)).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formats_are_distinguished() {
-        for (k, format) in FORMATS.iter().enumerate() {
-            assert!(!format.summary.is_empty());
-            for other in &FORMATS[..k] {
-                assert!(format.name != other.name && format.target != other.target);
-            }
-        }
-    }
 }

@@ -4,7 +4,7 @@
 //! Formats, OGC 10-092r3]. HDF5 libraries are not needed for it.
 
 use super::{ExportError, Format, Sink, chosen_frames, poses};
-use crate::folder_page::RecordedRun;
+use crate::motion::RecordedRun;
 
 pub(super) const FORMAT: Format = Format {
     name: "netcdf",

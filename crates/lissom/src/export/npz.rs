@@ -2,7 +2,7 @@
 
 use super::{ExportError, Format, Sink, chosen_frames, npy, poses};
 use crate::archive::zip;
-use crate::folder_page::RecordedRun;
+use crate::motion::RecordedRun;
 
 pub(super) const FORMAT: Format = Format {
     name: "npz",

@@ -3,7 +3,7 @@
 use serde_json::{Map, json};
 
 use super::{ExportError, Format, Sink};
-use crate::folder_page::RecordedRun;
+use crate::motion::RecordedRun;
 use crate::parquet::{Values, parquet};
 
 pub(super) const FORMAT: Format = Format {

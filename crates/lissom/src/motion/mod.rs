@@ -20,12 +20,14 @@
 
 mod header;
 mod reader;
+mod recorded_run;
 mod recorder;
 
 pub use lissom_core::kinematics::NodeId;
 
 pub use header::{ForcePoints, Header};
 pub use reader::{Motion, MotionError};
+pub use recorded_run::RecordedRun;
 pub use recorder::MotionRecorder;
 
 /// First bytes of the file.
