@@ -127,14 +127,12 @@ pub mod fmu;
 mod folder;
 mod folder_page;
 pub mod geometry;
+mod ids;
 pub mod import;
-mod joint_coordinates;
-mod joint_dynamics;
 mod model;
 pub mod motion;
 mod parquet;
 pub mod picture;
-mod prepared;
 mod recorded_modes;
 mod report;
 mod schedule;
@@ -155,8 +153,6 @@ pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFil
 pub use command_error::CommandError;
 pub use diagnostic::with_code;
 pub use folder::{FolderError, ResultFolder, protect_results};
-pub use joint_coordinates::{JointCoordinateError, JointCoordinates};
-pub use joint_dynamics::JointDynamics;
 pub use lissom_core as core;
 pub use lissom_core::diagnostics::{Diagnose, Diagnostic, Severity};
 pub use lissom_model::files::FileError;
@@ -164,10 +160,12 @@ pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
 pub use motion::RecordedRun;
-pub use prepared::{PartError, Prepared, StartError};
 pub use recorded_modes::RecordedModes;
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
-pub use session::{Checkpoints, Progress, ReadError, Session, SessionError, SessionSnapshot, columns};
+pub use session::{
+    Checkpoints, JointCoordinateError, JointCoordinates, JointDynamics, PartError, Prepared, Progress,
+    ReadError, Session, SessionError, SessionSnapshot, StartError, columns,
+};
 pub use state_writer::StateWriter;
 pub use timings::Seconds;
 

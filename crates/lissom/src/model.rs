@@ -8,9 +8,8 @@ use lissom_model::files::{self, FileError};
 use lissom_model::lower::registry::registry;
 use lissom_model::{Document, Library, ModelText, Report};
 
-use crate::builder::IdNames;
-use crate::prepared::Prepared;
-use crate::session::{Session, SessionError};
+use crate::ids::IdNames;
+use crate::session::{Prepared, Session, SessionError};
 
 /// A path into the model file and its new value, such as `("analysis.step", "1e-4")`.
 pub type Override = (String, String);

@@ -1,7 +1,7 @@
 //! Declaration of the types of entries: required values are arguments of `new`, the others have a method per key.
 
-use super::ids::Id;
 use super::written::Written;
+use crate::ids::Id;
 
 /// Something that can be added to a model. Its kinds are those of the model file.
 pub trait Entry {
@@ -30,7 +30,7 @@ macro_rules! entry {
         }
 
         impl $crate::builder::entry::Entry for $name {
-            type Id = $crate::builder::ids::$id;
+            type Id = $crate::ids::$id;
             const WORD: &'static str = $word;
 
             fn written(self) -> $crate::builder::written::Written {

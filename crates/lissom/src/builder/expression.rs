@@ -5,8 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use lissom_model::output::number_text;
 
-use super::ids::{AnyId, InputId, JointId, OutputId, SignalId, StateId};
 use super::written::{Fields, Written};
+use crate::ids::{AnyId, InputId, JointId, OutputId, SignalId, StateId};
 
 /// An expression of time, inputs, signals, states, coordinates of joints and components of outputs.
 ///

@@ -3,8 +3,8 @@
 use super::entries::feedback::Event;
 use super::entry::Entry;
 use super::expression::{Expression, TabulatedFunction};
-use super::ids::{InputId, SignalId};
 use super::written::{Fields, NameOf, Written};
+use crate::ids::{InputId, SignalId};
 
 /// A number that can be set while a simulation runs.
 #[derive(Clone, Copy, Debug, PartialEq)]

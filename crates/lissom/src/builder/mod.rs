@@ -37,7 +37,6 @@
 mod entry;
 mod expression;
 mod feedback;
-mod ids;
 mod values;
 mod written;
 
@@ -50,24 +49,21 @@ use std::panic::Location;
 use lissom_model::toml_text::{key, quoted};
 use lissom_model::{Problem, Report, Sources, Span};
 
+use crate::ids::{Id, IdNames, Table};
 use crate::model::Model;
 
+pub use crate::ids::{
+    AnalysisId, BeamId, BodyId, ContactId, EventId, ForeignId, GroundId, InitialId, InputId, JointId, LoadId,
+    LocalLoadId, MaterialId, MotionId, OutputId, Part, PointMassId, Quantity, SectionId, SignalId, SpringId,
+    StateId, SuperelementId,
+};
 pub use entries::feedback::{Event, State};
 pub use entries::{analyses, contacts, joints, loads, motions, outputs, parts, sections, springs, words};
 pub use entry::Entry;
 pub use expression::{Expression, Function, TabulatedFunction};
 pub use feedback::{Input, Signal};
-pub(crate) use ids::IdNames;
-pub use ids::{
-    AnalysisId, BeamId, BodyId, ContactId, EventId, ForeignId, GroundId, InitialId, InputId, JointId, LoadId,
-    LocalLoadId, MaterialId, MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId,
-    SuperelementId,
-};
-pub use values::{
-    GROUND, Inertia, Mass, Matrix, Node, Part, PositionOrNode, Quantity, SectionMass, Shear, Solid,
-};
+pub use values::{GROUND, Inertia, Mass, Matrix, Node, PositionOrNode, SectionMass, Shear, Solid};
 
-use ids::{Id, Table};
 use written::Written;
 
 /// Name in messages of a model without a title.

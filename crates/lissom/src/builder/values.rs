@@ -1,11 +1,11 @@
 //! Values of entries: nodes, positions, masses, matrices.
 
 use super::entries::sections::SliceMass;
-use super::ids::{
-    AnyId, BeamId, BodyId, ContactId, InputId, JointId, LocalLoadId, MaterialId, PointMassId, SectionId,
-    SignalId, SpringId, StateId, SuperelementId,
-};
 use super::written::{Fields, NameOf, Written};
+use crate::ids::{
+    AnyId, BeamId, BodyId, ContactId, InputId, JointId, LocalLoadId, MaterialId, Part, PointMassId, Quantity,
+    SectionId, SpringId, SuperelementId,
+};
 
 /// A node: the ground, a body, a point mass, or a position along a beam; for contacts also a whole beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,43 +129,6 @@ impl From<(String, [f64; 3])> for Written {
     }
 }
 
-/// Declares types that contain the name of an entry of one of several tables.
-macro_rules! names {
-    ($($(#[$doc:meta])* $name:ident of $($id:ident)*;)*) => {
-        $(
-            $(#[$doc])*
-            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub struct $name(AnyId);
-
-            impl $name {
-                /// The id.
-                pub(crate) fn id(self) -> AnyId {
-                    self.0
-                }
-            }
-
-            $(impl From<$id> for $name {
-                fn from(id: $id) -> Self {
-                    Self(id.0)
-                }
-            })*
-
-            impl From<$name> for Written {
-                fn from(name: $name) -> Self {
-                    Self::Name(NameOf(name.0))
-                }
-            }
-        )*
-    };
-}
-
-names! {
-    /// A body, a point mass, a beam or a superelement.
-    Part of BodyId PointMassId BeamId SuperelementId;
-    /// A number with a name in a simulation: a signal, an input or a state.
-    Quantity of SignalId InputId StateId;
-}
-
 macro_rules! written_names {
     ($($id:ident)*) => {
         $(impl From<$id> for Written {
@@ -176,7 +139,7 @@ macro_rules! written_names {
     };
 }
 
-written_names! { MaterialId SectionId JointId SpringId ContactId LocalLoadId InputId BeamId SuperelementId }
+written_names! { MaterialId SectionId JointId SpringId ContactId LocalLoadId InputId BeamId SuperelementId Part Quantity }
 
 /// The mass of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

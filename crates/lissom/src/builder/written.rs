@@ -4,8 +4,8 @@ use lissom_model::output::number_text;
 use lissom_model::toml_text::{key, quoted};
 
 use super::expression::{Expression, Piece};
-use super::ids::{AnyId, ForeignId, IdNames};
 use super::values::{At, Node};
+use crate::ids::{AnyId, ForeignId, IdNames};
 
 /// The value of a key.
 #[derive(Clone, Debug, PartialEq)]

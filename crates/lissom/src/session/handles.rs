@@ -10,7 +10,7 @@ use lissom_core::simulation::SnapshotError;
 use lissom_core::system::State;
 
 use super::{Observed, Session};
-use crate::builder::{ForeignId, IdNames, InputId, OutputId, Quantity};
+use crate::ids::{ForeignId, IdNames, InputId, OutputId, Quantity};
 use crate::timings::Timings;
 
 /// Why an id cannot be read or set.
@@ -70,7 +70,7 @@ impl Session {
     /// # Errors
     /// If it belongs to another model.
     pub fn quantity(&self, quantity: impl Into<Quantity>) -> Result<f64, ReadError> {
-        let id = quantity.into().id();
+        let id = quantity.into().0;
         self.value(self.ids()?.name(id)?).ok_or_else(|| id.foreign().into())
     }
 

@@ -2,7 +2,10 @@
 //! Independent of files and terminal.
 
 mod handles;
+mod joint_coordinates;
+mod joint_dynamics;
 mod observed;
+mod prepared;
 mod snapshot;
 
 use lissom_core::diagnostics::Diagnose;
@@ -27,8 +30,7 @@ use lissom_model::output::{Column, Record, Writer};
 use lissom_model::sweep::{Accumulator, TimeWindow, WindowError, WindowedHistory};
 use lissom_model::{Document, Report, component_position};
 
-use crate::builder::IdNames;
-use crate::prepared::Prepared;
+use crate::ids::IdNames;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
 use crate::schedule::{Due, Next, Schedule};
 use crate::state_writer::StateWriter;
@@ -36,7 +38,10 @@ use crate::telemetry::Telemetry;
 use crate::timings::Timings;
 
 pub use handles::ReadError;
+pub use joint_coordinates::{JointCoordinateError, JointCoordinates};
+pub use joint_dynamics::JointDynamics;
 pub(crate) use observed::Observed;
+pub use prepared::{PartError, Prepared, StartError};
 use snapshot::NoCheckpoints;
 pub use snapshot::{Checkpoints, SessionSnapshot};
 

@@ -3,8 +3,8 @@
 
 use super::words;
 use crate::builder::entry::entry;
-use crate::builder::ids::MaterialId;
 use crate::builder::values::{Node, Solid};
+use crate::ids::MaterialId;
 
 entry! {
     /// Two parts that may touch, by their shapes.

@@ -4,8 +4,8 @@
 use super::words;
 use crate::builder::entry::{entry, keys, nested};
 use crate::builder::expression::{Expression, Function};
-use crate::builder::ids::JointId;
-use crate::builder::values::{Node, Part};
+use crate::builder::values::Node;
+use crate::ids::{JointId, Part};
 
 entry! {
     /// A coordinate of `other` is a function of a coordinate of `joint`, such as the profile of a cam.

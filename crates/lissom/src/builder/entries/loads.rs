@@ -4,8 +4,8 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::{Expression, Function};
-use crate::builder::ids::JointId;
 use crate::builder::values::Node;
+use crate::ids::JointId;
 
 entry! {
     /// Force on a point, of fixed direction or rotating with the node, scaled by a function of time.

@@ -2,7 +2,7 @@
 //! How the parts are and move at the start.
 
 use crate::builder::entry::{entry, keys};
-use crate::builder::values::Part;
+use crate::ids::Part;
 
 entry! {
     /// A rigid motion of all parts at the start, or static equilibrium.

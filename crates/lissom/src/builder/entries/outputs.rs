@@ -4,8 +4,8 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Expression;
-use crate::builder::ids::{BeamId, ContactId, JointId, LocalLoadId, SpringId, SuperelementId};
-use crate::builder::values::{Node, Quantity};
+use crate::builder::values::Node;
+use crate::ids::{BeamId, ContactId, JointId, LocalLoadId, Quantity, SpringId, SuperelementId};
 
 entry! {
     /// Position of a node, or of a point fixed to it.

@@ -4,8 +4,8 @@
 use super::words;
 use crate::builder::entry::entry;
 use crate::builder::expression::{Expression, Function};
-use crate::builder::ids::SectionId;
 use crate::builder::values::{Inertia, Mass, PositionOrNode, Solid};
+use crate::ids::SectionId;
 
 entry! {
     /// A flexible beam.

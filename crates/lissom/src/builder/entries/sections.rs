@@ -2,8 +2,8 @@
 //! Materials and cross sections.
 
 use crate::builder::entry::{entry, keys, nested};
-use crate::builder::ids::MaterialId;
 use crate::builder::values::{Matrix, SectionMass, Shear};
+use crate::ids::MaterialId;
 
 entry! {
     /// An isotropic elastic material.

@@ -4,8 +4,8 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
-use crate::builder::ids::{InputId, JointId};
 use crate::builder::values::{Matrix, Node, PositionOrNode};
+use crate::ids::{InputId, JointId};
 
 entry! {
     /// Spring and damper on a joint's relative displacement.

@@ -10,8 +10,8 @@ use lissom_model::Document;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, Plan, lower};
 
-use crate::builder::{ForeignId, IdNames, InputId, Part};
-use crate::session::{Session, SessionError};
+use super::{Session, SessionError};
+use crate::ids::{ForeignId, IdNames, InputId, Part};
 
 /// Allowed violation of a constraint in a given state: of an angle [rad], and of a length over the size of the model.
 const MAX_VIOLATION: f64 = 1e-6;
@@ -136,7 +136,7 @@ impl Prepared {
         velocity: impl Into<[f64; 3]>,
         angular_velocity: impl Into<[f64; 3]>,
     ) -> Result<(), PartError> {
-        let name = self.ids()?.name(part.into().id())?;
+        let name = self.ids()?.name(part.into().0)?;
         let Some(node) =
             self.lowered.names.nodes.get(name).and_then(|&node| state.kinematics.nodes.get_mut(node.index()))
         else {

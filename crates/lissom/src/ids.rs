@@ -136,6 +136,30 @@ tables! {
     AnalysisId: Analysis = "analysis", "analysis";
 }
 
+/// Declares types that contain the name of an entry of one of several tables.
+macro_rules! names {
+    ($($(#[$doc:meta])* $name:ident of $($id:ident)*;)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub struct $name(pub(crate) AnyId);
+
+            $(impl From<$id> for $name {
+                fn from(id: $id) -> Self {
+                    Self(id.0)
+                }
+            })*
+        )*
+    };
+}
+
+names! {
+    /// A body, a point mass, a beam or a superelement.
+    Part of BodyId PointMassId BeamId SuperelementId;
+    /// A number with a name in a simulation: a signal, an input or a state.
+    Quantity of SignalId InputId StateId;
+}
+
 /// The names behind the ids of one builder.
 #[derive(Clone, Debug)]
 pub(crate) struct IdNames {

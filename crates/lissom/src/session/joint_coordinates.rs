@@ -10,8 +10,7 @@ use lissom_core::studies::joint_space::{JointSpace, JointSpaceError, check_numbe
 use lissom_core::system::ElementId;
 use lissom_motion::Vector6;
 
-use crate::prepared::{Prepared, StartError};
-use crate::session::Session;
+use super::{Prepared, Session, StartError};
 
 /// Why a request about joint coordinates is not met.
 #[derive(Debug, thiserror::Error)]

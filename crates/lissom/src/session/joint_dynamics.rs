@@ -7,8 +7,7 @@ use lissom_core::system::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::Vector6;
 
-use crate::joint_coordinates::{JointCoordinateError, JointCoordinates};
-use crate::session::Session;
+use super::{JointCoordinateError, JointCoordinates, Session};
 
 /// Evaluates `H z̈ + h = τ` at the present state of a session: z joint coordinates, τ the forces of `joint_torque` and `joint_force`
 /// loads on them. h contains all other forces: those of velocities, gravity, springs, friction and other loads.
