@@ -1,7 +1,6 @@
 //! The program `lissom`: one subcommand per file in `commands`.
 
 mod commands;
-mod terminal;
 
 use std::process::ExitCode;
 

@@ -11,7 +11,7 @@ use lissom_core::number::duration;
 use super::model_arguments::ModelArguments;
 use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::unwritable;
-use crate::terminal;
+use super::terminal;
 
 // The help of the command is that of the request: a comment of documentation here would replace it.
 #[derive(Args)]

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use super::model_arguments::ModelArguments;
 use super::outcome::{Exit, Failure, show_warnings, warn};
-use crate::terminal;
+use super::terminal;
 
 /// Check a model without simulating it: errors, size, degrees of freedom, redundant constraints.
 #[derive(Args)]

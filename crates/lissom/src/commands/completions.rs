@@ -6,7 +6,7 @@ use clap_complete::Shell;
 use super::Line;
 use super::outcome::{Exit, Failure};
 use super::results::writing_failed;
-use crate::terminal;
+use super::terminal;
 
 /// Print the completion script for a shell.
 #[derive(Args)]

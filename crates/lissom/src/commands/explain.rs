@@ -8,7 +8,7 @@ use lissom_core::diagnostics::Entry;
 use serde_json::Value;
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// Explain warnings and failures, by code, by words of the message, or all that a run has reported.
 #[derive(Args)]

@@ -10,7 +10,7 @@ use lissom::{Model, Override, ResultFolder};
 use lissom_model::files;
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// Export results to ParaView, Blender, NumPy or pandas, or a model of rigid bodies as URDF.
 #[derive(Args)]

@@ -8,7 +8,7 @@ use lissom_model::files;
 
 use super::model_arguments::ModelArguments;
 use super::outcome::{Exit, Failure, show_warnings};
-use crate::terminal;
+use super::terminal;
 
 /// Export a model as a functional mock-up unit (FMI 3.0, co-simulation), for Simulink, Modelica tools and others.
 ///

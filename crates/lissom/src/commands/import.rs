@@ -8,7 +8,7 @@ use lissom::{Diagnose, Diagnostic, Model, SessionError};
 use lissom_model::files;
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// Convert a robot description (URDF, MJCF) to a model file: bodies, joints, limits, springs, damping and friction.
 #[derive(Args)]

@@ -12,7 +12,7 @@ use lissom_model::{Form, FormKey, forms, function_names, meant, topic, topics};
 use serde_json::{Value, json};
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// List kinds, keys, functions and schemes of model files.
 #[derive(Args)]

@@ -14,7 +14,7 @@ mod live;
 mod manual;
 mod model_arguments;
 mod new;
-pub(crate) mod outcome;
+mod outcome;
 mod path;
 mod plot;
 mod results;
@@ -23,6 +23,7 @@ mod schema;
 mod snapshot;
 mod study;
 mod sweep;
+mod terminal;
 mod view;
 
 use std::process::ExitCode;
@@ -38,7 +39,6 @@ use lissom::reduce::ReduceRequest;
 use lissom::response::ResponseRequest;
 
 use self::outcome::{Exit, Failure};
-use crate::terminal;
 
 /// Defines the commands, and lists them by topic in the help of the program.
 macro_rules! commands {

@@ -6,7 +6,7 @@ use clap::Args;
 use lissom_model::files;
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// The model, complete except for its title.
 const TEMPLATE: &str = include_str!("new_model.toml");

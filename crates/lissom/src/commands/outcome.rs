@@ -2,7 +2,7 @@
 
 use lissom::{CommandError, Diagnose, Diagnostic, Document, Report, with_code};
 
-use crate::terminal;
+use super::terminal;
 
 /// Exit code of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use lissom::{Diagnose, Document, FolderError, Model, Override, ResultFolder, Wri
 use lissom_model::output::CurveRecord;
 
 use super::outcome::{Exit, Failure, show_warnings, warn};
-use crate::terminal::{self, Interrupt};
+use super::terminal::{self, Interrupt};
 use lissom_core::number::{Written, duration};
 
 /// Options for the results.

@@ -8,7 +8,7 @@ use lissom_model::output::CurveRecord;
 use lissom_model::output::{Over, Source, plots};
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// Plot the `history.csv` of one or several folders of results.
 ///

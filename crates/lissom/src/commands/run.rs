@@ -24,7 +24,7 @@ use lissom_model::scene::Scene;
 
 use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::unwritable;
-use crate::terminal::{self, Bar, Interrupt};
+use super::terminal::{self, Bar, Interrupt};
 
 /// Simulate a model as specified in its table `[analysis]`.
 ///

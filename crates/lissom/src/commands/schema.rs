@@ -4,7 +4,7 @@ use clap::Args;
 use lissom_model::lower::registry::registry;
 
 use super::outcome::{Exit, Failure};
-use crate::terminal;
+use super::terminal;
 
 /// Print the JSON schema of model files, for completion and validation in editors.
 #[derive(Args)]

@@ -13,7 +13,7 @@ use lissom_model::scene::Scene;
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
 use super::outcome::{Exit, Failure};
 use super::run::Run;
-use crate::terminal;
+use super::terminal;
 
 /// Draw a mechanism at one or several instants, as SVG or PNG.
 ///

@@ -18,7 +18,7 @@ use lissom_model::files;
 use serde_json::json;
 
 use super::outcome::{Exit, Failure};
-use crate::terminal::{self, Interrupt};
+use super::terminal::{self, Interrupt};
 
 /// Maximum number of unsolved members listed in the message.
 const NAMED: usize = 5;

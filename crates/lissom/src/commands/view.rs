@@ -12,7 +12,7 @@ use lissom_model::files;
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
 use super::outcome::{Exit, Failure};
 use super::run::Run;
-use crate::terminal;
+use super::terminal;
 
 /// Show results as an animation with plots, in one HTML file for any browser.
 ///

@@ -14,8 +14,8 @@ use clap::Args;
 use lissom::{CommandError, Model, Override};
 
 use super::outcome::{Exit, Failure, warn};
+use super::terminal::{self, Interrupt};
 use super::view::open;
-use crate::terminal::{self, Interrupt};
 use simulation::Shared;
 
 /// Interval of checks for Ctrl-C.

@@ -9,7 +9,7 @@ use lissom_core::simulation::ConditionMethod;
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings};
-use crate::terminal::{self, Interrupt};
+use super::super::terminal::{self, Interrupt};
 
 /// Show the conditioning of the equations over the step size, with and without scaling.
 ///

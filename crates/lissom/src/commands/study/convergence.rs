@@ -9,7 +9,7 @@ use lissom::{AnalysisWarning, Diagnose};
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings, warn};
-use crate::terminal::{self, Interrupt};
+use super::super::terminal::{self, Interrupt};
 
 /// Show the convergence of schemes: relative error and observed order over the step size.
 ///

@@ -9,7 +9,7 @@ use lissom_core::studies::factorization::{Case, ITERATIONS};
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings};
-use crate::terminal;
+use super::super::terminal;
 
 /// Show whether the equations can be factored without pivoting, and how accurately they are solved.
 ///

@@ -17,7 +17,7 @@ use lissom_model::files;
 use lissom_model::output::LogFigure;
 
 use super::outcome::{Exit, Failure, warn};
-use crate::terminal::Interrupt;
+use super::terminal::Interrupt;
 
 /// Study the effects of scaling, scheme, step size and solver on a model.
 #[derive(Args)]

@@ -9,7 +9,7 @@ use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings, warn};
-use crate::terminal::{self, Interrupt};
+use super::super::terminal::{self, Interrupt};
 
 /// Show the round-off of an output, such as a reaction, at tiny steps.
 ///

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use lissom::Progress;
 use lissom_core::number::written;
 
-use crate::commands::outcome::Exit;
+use super::outcome::Exit;
 
 /// Refresh interval of the progress bar.
 const REFRESH: Duration = Duration::from_millis(50);
