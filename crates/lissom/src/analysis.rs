@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 use toml::de::ValueDeserializer;
 
 use crate::command_error::CommandError;
-use crate::folder::ResultFolder;
 use crate::model::{Model, Override};
+use crate::results::folder::ResultFolder;
 
 /// The request of an analysis. With the feature `command-line` its fields are the options of the command.
 pub trait Analysis: DeserializeOwned {
@@ -112,12 +112,12 @@ pub fn summary<A: Analysis>(
     overrides: &[Override],
     document: &Document,
 ) -> Summary {
-    let mut summary = crate::summary::of_request(A::NAME, name, overrides, document);
-    let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
+    let mut summary = crate::results::summary::of_request(A::NAME, name, overrides, document);
+    let mut insert = |name: &str, fact: Value| crate::results::summary::insert(&mut summary, name, fact);
     insert("stopped", json!("end"));
     report.add_facts(&mut insert);
     insert("wall_seconds", json!(wall.as_secs_f64()));
-    crate::summary::add_warnings(&mut summary, &report.warnings());
+    crate::results::summary::add_warnings(&mut summary, &report.warnings());
     summary
 }
 

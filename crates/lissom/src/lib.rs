@@ -111,48 +111,36 @@
 //! `examples` folder contains programs that check themselves: a pendulum, an arm with an external controller, a thousand copies
 //! on all cores.
 
-mod archive;
-pub mod builder;
-
 pub mod analyses;
 pub mod analysis;
 mod analysis_warning;
+pub mod builder;
 mod catalogue;
-mod checkpoint;
 mod command_error;
 mod diagnostic;
+mod encodings;
 pub mod export;
 mod failures;
 pub mod fmu;
-mod folder;
-mod folder_page;
 pub mod geometry;
 mod ids;
 pub mod import;
 mod model;
 pub mod motion;
-mod parquet;
 pub mod picture;
-mod recorded_modes;
-mod report;
-mod schedule;
-pub mod sealed;
+mod results;
+mod run;
 mod session;
-mod state_writer;
 pub mod study;
-pub mod summary;
 pub mod sweep;
-pub mod telemetry;
-mod timings;
 pub mod view;
 
 pub use analyses::{buckling, campbell, gradient, linearize, modes, path, reduce, response};
 pub use analysis_warning::AnalysisWarning;
 pub use catalogue::catalogue;
-pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use command_error::CommandError;
 pub use diagnostic::with_code;
-pub use folder::{FolderError, ResultFolder, protect_results};
+pub use encodings::sealed;
 pub use lissom_core as core;
 pub use lissom_core::diagnostics::{Diagnose, Diagnostic, Severity};
 pub use lissom_model::files::FileError;
@@ -160,14 +148,18 @@ pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
 pub use motion::RecordedRun;
-pub use recorded_modes::RecordedModes;
-pub use report::{EnergyChange, RunError, RunReport, Stopped};
+pub use results::checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
+pub use results::folder::{FolderError, ResultFolder, protect_results};
+pub use results::recorded_modes::RecordedModes;
+pub use results::summary;
+pub use run::report::{EnergyChange, RunError, RunReport, Stopped};
+pub use run::state_writer::StateWriter;
+pub use run::telemetry;
+pub use run::timings::Seconds;
 pub use session::{
     Checkpoints, JointCoordinateError, JointCoordinates, JointDynamics, PartError, Prepared, Progress,
     ReadError, Session, SessionError, SessionSnapshot, StartError, columns,
 };
-pub use state_writer::StateWriter;
-pub use timings::Seconds;
 
 /// Version of the program, as in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

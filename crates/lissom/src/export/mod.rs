@@ -4,7 +4,6 @@ mod buffer;
 mod formats;
 mod gltf;
 mod netcdf;
-pub(crate) mod npy;
 mod npz;
 mod parquet;
 mod vtk;

@@ -1,7 +1,8 @@
 //! NPZ: named arrays for NumPy, with units beside the numbers.
 
-use super::{ExportError, Format, Sink, chosen_frames, npy, poses};
-use crate::archive::zip;
+use super::{ExportError, Format, Sink, chosen_frames, poses};
+use crate::encodings::archive::zip;
+use crate::encodings::npy;
 use crate::motion::RecordedRun;
 
 pub(super) const FORMAT: Format = Format {

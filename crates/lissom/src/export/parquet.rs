@@ -3,8 +3,8 @@
 use serde_json::{Map, json};
 
 use super::{ExportError, Format, Sink};
+use crate::encodings::parquet::{Values, parquet};
 use crate::motion::RecordedRun;
-use crate::parquet::{Values, parquet};
 
 pub(super) const FORMAT: Format = Format {
     name: "parquet",

@@ -197,7 +197,7 @@ pub fn export(model: &Model, overrides: &[Override], library: &[u8]) -> Result<V
     let (resource, text) = (format!("resources/{MODEL_FILE}"), packed.to_json());
     let files =
         [("modelDescription.xml", description.as_bytes()), (&resource, text.as_bytes()), (&binary, library)];
-    Ok(crate::archive::zip(&files)?)
+    Ok(crate::encodings::archive::zip(&files)?)
 }
 
 /// The folder of this machine's platform, as named by FMI 3.0.

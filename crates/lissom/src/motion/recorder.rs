@@ -15,7 +15,7 @@ use lissom_core::system::State;
 use lissom_model::lower::Lowered;
 
 use super::header::{Header, POINTS};
-use crate::state_writer::StateWriter;
+use crate::run::state_writer::StateWriter;
 
 /// Maximum number of frames if no rate is given.
 const FRAMES: f64 = 600.0;

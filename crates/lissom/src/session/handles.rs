@@ -11,7 +11,7 @@ use lissom_core::system::State;
 
 use super::{Observed, Session};
 use crate::ids::{ForeignId, IdNames, InputId, OutputId, Quantity};
-use crate::timings::Timings;
+use crate::run::timings::Timings;
 
 /// Why an id cannot be read or set.
 #[derive(Debug, thiserror::Error)]

@@ -31,11 +31,11 @@ use lissom_model::sweep::{Accumulator, TimeWindow, WindowError, WindowedHistory}
 use lissom_model::{Document, Report, component_position};
 
 use crate::ids::IdNames;
-use crate::report::{EnergyChange, RunError, RunReport, Stopped};
-use crate::schedule::{Due, Next, Schedule};
-use crate::state_writer::StateWriter;
-use crate::telemetry::Telemetry;
-use crate::timings::Timings;
+use crate::run::report::{EnergyChange, RunError, RunReport, Stopped};
+use crate::run::schedule::{Due, Next, Schedule};
+use crate::run::state_writer::StateWriter;
+use crate::run::telemetry::Telemetry;
+use crate::run::timings::Timings;
 
 pub use handles::ReadError;
 pub use joint_coordinates::{JointCoordinateError, JointCoordinates};

@@ -7,10 +7,10 @@ use lissom_model::sweep::WindowedHistory;
 use serde::{Deserialize, Serialize};
 
 use super::Session;
-use crate::report::EnergyChange;
-use crate::schedule::Schedule;
-use crate::sealed;
-use crate::telemetry::Telemetry;
+use crate::encodings::sealed;
+use crate::run::report::EnergyChange;
+use crate::run::schedule::Schedule;
+use crate::run::telemetry::Telemetry;
 
 /// Receives snapshots of a run.
 pub trait Checkpoints {

@@ -13,7 +13,7 @@ use lissom_core::diagnostics::Diagnose;
 use lissom_core::errors::{InitialError, StepError};
 use lissom_model::Report;
 
-use crate::report::RunError;
+use crate::run::report::RunError;
 
 pub use members::Watch;
 

@@ -9,7 +9,7 @@ use lissom_model::output::Record;
 use super::StudyError;
 use super::members::Effort;
 use crate::model::{Model, Override};
-use crate::report::Stopped;
+use crate::run::report::Stopped;
 use crate::session::Session;
 
 /// Values of all components, instant by instant.

@@ -9,7 +9,7 @@ use lissom_model::sweep::{
 };
 
 use super::SweepError;
-use crate::parquet::{Values, parquet};
+use crate::encodings::parquet::{Values, parquet};
 
 /// Maximum number of columns that are listed in a message.
 const FEW: usize = 40;

@@ -12,7 +12,7 @@ use lissom_model::output::{Summary, SweepPlot};
 
 use super::table::{write_parquet, write_table};
 use super::{MemberOutcome, Sweep};
-use crate::folder::{FolderError, ResultFolder};
+use crate::results::folder::{FolderError, ResultFolder};
 
 /// Name of the record of members.
 const MEMBERS: &str = "members.jsonl";

@@ -7,7 +7,7 @@ use lissom_model::{Document, Report, Severity};
 use serde::{Deserialize, Serialize};
 
 use super::collector::{Collector, History, windows};
-use crate::report::Stopped;
+use crate::run::report::Stopped;
 use crate::session::{Progress, Session, SessionError};
 
 /// State of a completed member.

@@ -7,7 +7,7 @@ use lissom_model::output::{SweepAxis, SweepPlot, number_text, quoted};
 use lissom_model::sweep::Variation;
 
 use super::{MemberOutcome, MemberState, Sweep, SweepValue};
-use crate::parquet::{Values, parquet};
+use crate::encodings::parquet::{Values, parquet};
 
 /// The headings: `member`, the varied paths, what is collected, `state`, `time`, `steps`, `max_constraint_violation`,
 /// `diagnosis`.

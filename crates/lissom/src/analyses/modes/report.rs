@@ -17,10 +17,10 @@ use serde_json::{Value, json};
 
 use super::ModeReport;
 use crate::analysis::AnalysisReport;
-use crate::folder::{FolderError, ResultFolder};
 use crate::motion::{Motion, MotionRecorder};
 use crate::picture::{Picture, PictureError};
-use crate::report::RunError;
+use crate::results::folder::{FolderError, ResultFolder};
+use crate::run::report::RunError;
 
 /// Maximum number of nodes of models whose shapes are drawn: for larger ones drawing would take longer than the modes.
 const MAX_DRAWN: usize = 2000;

@@ -323,8 +323,8 @@ impl PathSession {
 
     /// The contents of `summary.json`.
     pub fn summary(&self, mut summary: Summary, report: &PathReport) -> Summary {
-        crate::summary::add_warnings(&mut summary, &self.doubts);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
+        crate::results::summary::add_warnings(&mut summary, &self.doubts);
+        let mut insert = |name: &str, fact: Value| crate::results::summary::insert(&mut summary, name, fact);
         insert("stopped", json!(report.end.name()));
         if let PathEnd::Failed(error) = &report.end {
             insert("error", json!(error.to_string()));
@@ -402,5 +402,5 @@ fn under_loads(
 
 /// Contents that are known before the first step.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
-    crate::summary::of_request("path", name, overrides, document)
+    crate::results::summary::of_request("path", name, overrides, document)
 }

@@ -8,7 +8,7 @@ use lissom_model::lower::Lowered;
 use lissom_model::scene::{PathValues, Scene};
 
 use crate::motion::MotionRecorder;
-use crate::state_writer::StateWriter;
+use crate::run::state_writer::StateWriter;
 
 /// Records equilibria for pictures.
 pub(super) struct PathPictures {

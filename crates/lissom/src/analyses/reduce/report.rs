@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 
 use super::ReduceReport;
 use crate::analysis::AnalysisReport;
-use crate::export::npy;
-use crate::folder::{FolderError, ResultFolder};
+use crate::encodings::npy;
+use crate::results::folder::{FolderError, ResultFolder};
 
 /// Maximum number of frequencies printed on the terminal.
 const LISTED: usize = 6;
@@ -108,7 +108,7 @@ pub(super) fn archive(
     arrays.push(("interfaces.npy", npy::texts(labels)));
     arrays.push(("places.npy", npy::numbers(&[places.len(), 3], &flat)));
     let arrays: Vec<(&str, &[u8])> = arrays.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect();
-    crate::archive::zip(&arrays)
+    crate::encodings::archive::zip(&arrays)
 }
 
 impl AnalysisReport for ReduceReport {

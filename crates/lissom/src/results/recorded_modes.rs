@@ -6,8 +6,8 @@ use std::path::Path;
 use lissom_model::files;
 use lissom_model::scene::Scene;
 
-use crate::folder::{FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
-use crate::folder_page::{foreign, read_scene};
+use super::folder::{FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
+use super::page::{foreign, read_scene};
 use crate::motion::{Motion, MotionError};
 use crate::view::modes::{Mode, read};
 

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use lissom_model::files::{self, FileError};
 use serde::{Deserialize, Serialize};
 
+use crate::encodings::sealed;
 use crate::model::Override;
-use crate::sealed;
 use crate::session::{Checkpoints, SessionSnapshot};
 
 /// Name of the file.

@@ -14,7 +14,7 @@ use lissom_model::output::{
 use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
 
-use crate::checkpoint::{CHECKPOINT, Checkpoint};
+use super::checkpoint::{CHECKPOINT, Checkpoint};
 use crate::export;
 use crate::motion::{Motion, MotionError};
 

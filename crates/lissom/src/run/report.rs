@@ -10,7 +10,7 @@ use lissom_core::settings::Totals;
 
 use serde::{Deserialize, Serialize};
 
-use crate::timings::Seconds;
+use super::timings::Seconds;
 
 /// Why a run ended early.
 #[derive(Debug, thiserror::Error)]

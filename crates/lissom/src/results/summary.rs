@@ -14,10 +14,9 @@ use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
-use crate::diagnostic;
-use crate::diagnostic::with_code;
+use crate::diagnostic::{self, with_code};
 use crate::model::{Model, Override};
-use crate::report::RunReport;
+use crate::run::report::RunReport;
 use crate::session::{Session, columns};
 
 pub(crate) fn insert(summary: &mut Summary, name: &str, fact: Value) {

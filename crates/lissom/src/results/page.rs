@@ -7,7 +7,7 @@ use lissom_model::files;
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
-use crate::folder::{CAMPBELL, EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
+use super::folder::{CAMPBELL, EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
 use crate::motion::{Motion, MotionError, RecordedRun};
 use crate::view::{Notice, Results};
 

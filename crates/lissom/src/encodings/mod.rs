@@ -1,0 +1,6 @@
+//! Bytes of archives, arrays, tables and stored values.
+
+pub(crate) mod archive;
+pub(crate) mod npy;
+pub(crate) mod parquet;
+pub mod sealed;
