@@ -41,7 +41,6 @@ pub(crate) fn array_mut<S, const COUNT: usize>(slice: &mut [S], at: usize) -> &m
 /// A real or complex number in double precision. Sealed: implemented only for `f64` and `Complex64`.
 pub trait Scalar:
     sealed::Arithmetic
-    + crate::multifrontal::Kernels
     + Copy
     + Debug
     + Default

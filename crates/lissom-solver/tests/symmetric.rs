@@ -5,7 +5,9 @@ use std::sync::Arc;
 use lissom_solver::samples::{
     Model, Sample, backward_error, chain, closed_loop, grid, right_hand_side, tree,
 };
-use lissom_solver::{FactorError, LinearSolver, Multifrontal, Pattern, Skyline, Structure, Symmetric, kind};
+use lissom_solver::{
+    FactorError, Kernels, LinearSolver, Multifrontal, Pattern, Skyline, Structure, Symmetric, kind,
+};
 use num_complex::Complex64;
 
 fn symmetric_values<S: Sample>(model: &Model, pattern: &Pattern, penalty: f64) -> Vec<S> {
@@ -20,7 +22,7 @@ fn symmetric_values<S: Sample>(model: &Model, pattern: &Pattern, penalty: f64) -
     out
 }
 
-fn solves<S: Sample>() {
+fn solves<S: Sample + Kernels>() {
     for model in [chain(300), chain(30), tree(400), grid(600), grid(3000), closed_loop(250)] {
         let structure = model.structure();
         let pattern = &structure.pattern;

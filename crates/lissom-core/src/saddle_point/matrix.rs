@@ -1,13 +1,13 @@
 //! One saddle-point matrix, with a solver for it.
 
-use lissom_solver::{FactorError, FactorReport, LinearSolver, Scalar, SolverKind, Structure};
+use lissom_solver::{FactorError, FactorReport, Kernels, LinearSolver, SolverKind, Structure};
 use num_complex::Complex64;
 
 use super::Matrices;
 use super::equilibration::Equilibration;
 
 /// A scalar of which there are solvers of every kind.
-pub(crate) trait SolverOf: Scalar {
+pub(crate) trait SolverOf: Kernels {
     /// The solver of that kind.
     fn solver(kind: &SolverKind, structure: &Structure) -> Box<dyn LinearSolver<Self>>;
 }

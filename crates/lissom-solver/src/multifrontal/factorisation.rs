@@ -8,6 +8,7 @@ use std::ops::Range;
 use super::contributions::{add_all, add_columns, add_lower, add_transposed};
 use super::elimination_tree::NONE;
 use super::fronts::{Front, Part, Symbolic};
+use super::instances::Kernels;
 use super::kernels::{Product, absolute_products, solve_panel};
 use super::small::{self, SmallFront};
 use super::square::SquareWork;
@@ -75,7 +76,7 @@ impl<'a, S> Share<'a, S> {
     }
 }
 
-impl<S: Scalar> Numeric<S> {
+impl<S: Kernels> Numeric<S> {
     pub(super) fn new(symbolic: &Symbolic, pattern: &Pattern) -> Self {
         let on_diagonal = |&unknown: &u32| {
             pattern.position(unknown as usize, unknown as usize).map_or(NONE, |at| at as u32)
@@ -152,7 +153,7 @@ fn begin_terms<S: Scalar>(terms: &mut [f64], diagonal: &[u32], values: &[S]) {
     }
 }
 
-impl<S: Scalar> Share<'_, S> {
+impl<S: Kernels> Share<'_, S> {
     /// Factorises subtrees, one after the other; the benches store the outcomes.
     pub(super) fn factor(self, processor: pulp::Arch, symbolic: &Symbolic, values: &[S], diagonal: &[u32]) {
         let mut rest = self;

@@ -17,9 +17,8 @@
 use std::ops::Range;
 
 use super::elimination_tree::{EliminationTree, NONE};
-use super::small::MAX_SMALL;
 use super::subtrees;
-use super::supernodes::{Supernode, supernodes};
+use super::supernodes::{MAX_SMALL, Supernode, supernodes};
 use crate::ordering::{GroupGraph, minimum_degree_order};
 use crate::structure::Structure;
 

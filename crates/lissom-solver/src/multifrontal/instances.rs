@@ -6,15 +6,20 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::factorisation::FactorPart;
 use super::small;
-use super::{Backward, Forward, Largest};
+use super::sweeps::{Backward, Forward};
+use crate::entries::largest_magnitude;
 use crate::report::{FactorError, Monitor};
+use crate::scalar::Scalar;
 
-/// The operations that take most of the time of factorisations and solves.
-pub trait Kernels: Sized {
-    /// Whether small fronts are eliminated by [`super::small`].
+/// The operations that take most of the time of factorisations and solves. Implemented for every [`Scalar`].
+pub trait Kernels: Scalar {
+    /// Whether small fronts have an elimination of their own.
     fn eliminates_small(processor: Arch) -> bool;
 
     /// Factorises a subtree, or the top; returns the monitor and the largest magnitude in U.
+    ///
+    /// # Errors
+    /// As of [`factor`](crate::LinearSolver::factor).
     fn factor_part(processor: Arch, part: FactorPart<'_, Self>) -> Result<(Monitor, f64), FactorError>;
 
     /// Forward substitution in some parts.
@@ -25,6 +30,21 @@ pub trait Kernels: Sized {
 
     /// Largest magnitude, if all values are finite.
     fn largest(processor: Arch, values: Largest<'_, Self>) -> Option<f64>;
+}
+
+/// Largest magnitude, if all values are finite.
+pub struct Largest<'a, S> {
+    pub(super) values: &'a [S],
+}
+
+impl<S: Scalar> pulp::WithSimd for Largest<'_, S> {
+    type Output = Option<f64>;
+
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        largest_magnitude(self.values)
+    }
 }
 
 /// With the widest vectors of the processor.

@@ -24,16 +24,17 @@ mod triangular;
 
 use std::sync::Arc;
 
-pub(crate) use instances::Kernels;
+pub use instances::Kernels;
 pub use symmetric::Symmetric;
 
 use factorisation::Numeric;
 use fronts::Symbolic;
+use instances::Largest;
 use several::Several;
-use sweeps::{Factors, Sweep};
+use sweeps::{Backward, Factors, Forward, Sweep, Way};
 use triangular::FrontVectors;
 
-use crate::entries::{first_not_finite, largest_magnitude};
+use crate::entries::first_not_finite;
 use crate::pattern::Pattern;
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
@@ -56,7 +57,7 @@ pub struct Multifrontal<S> {
     crews: Vec<usize>,
 }
 
-impl<S: Scalar> Multifrontal<S> {
+impl<S: Kernels> Multifrontal<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
@@ -137,7 +138,7 @@ fn split<'a, S: Scalar>(
     Sweep { parts: &symbolic.parts, vector, front_vectors }.split(symbolic.parts.len() - 1)
 }
 
-impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
+impl<S: Kernels> LinearSolver<S> for Multifrontal<S> {
     fn name(&self) -> &'static str {
         NAME
     }
@@ -174,72 +175,6 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
     }
 }
 
-/// Largest magnitude, if all values are finite.
-pub struct Largest<'a, S> {
-    values: &'a [S],
-}
-
-impl<S: Scalar> pulp::WithSimd for Largest<'_, S> {
-    type Output = Option<f64>;
-
-    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-    #[inline(always)]
-    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
-        largest_magnitude(self.values)
-    }
-}
-
-/// The system that is solved.
-#[derive(Clone, Copy)]
-enum Way {
-    /// L U.
-    Plain,
-    /// (L U)ᵀ.
-    Transposed,
-    /// L D Lᵀ.
-    Symmetric,
-}
-
-pub struct Forward<'a, S> {
-    factors: Factors<'a, S>,
-    right_hand_side: Option<&'a [S]>,
-    sweep: Sweep<'a, S>,
-}
-
-impl<S: Scalar> pulp::WithSimd for Forward<'_, S> {
-    type Output = ();
-
-    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-    #[inline(always)]
-    fn with_simd<V: pulp::Simd>(self, _: V) {
-        let Forward { factors, right_hand_side, sweep } = self;
-        if V::F64_LANES >= 4 {
-            factors.forward::<true>(right_hand_side, sweep);
-        } else {
-            factors.forward::<false>(right_hand_side, sweep);
-        }
-    }
-}
-
-pub struct Backward<'a, S> {
-    factors: Factors<'a, S>,
-    sweep: Sweep<'a, S>,
-}
-
-impl<S: Scalar> pulp::WithSimd for Backward<'_, S> {
-    type Output = ();
-
-    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-    #[inline(always)]
-    fn with_simd<V: pulp::Simd>(self, _: V) {
-        if V::F64_LANES >= 4 {
-            self.factors.backward::<true>(self.sweep);
-        } else {
-            self.factors.backward::<false>(self.sweep);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -254,7 +189,7 @@ mod tests {
         processors
     }
 
-    fn solves<S: Sample>(model: &Model) {
+    fn solves<S: Sample + Kernels>(model: &Model) {
         let structure = model.structure();
         let values: Vec<S> = model.values(&structure.pattern, 1, 1.0);
         let b: Vec<S> = right_hand_side(model.size, 2);

@@ -13,11 +13,9 @@
 
 use super::fronts::Front;
 use super::small_solves::with_rows;
+use super::supernodes::MAX_SMALL;
 use crate::report::{FactorError, Monitor};
 use crate::scalar::{Scalar, array, array_mut};
-
-/// Pivots and boundary unknowns of the largest front that is eliminated in this way. A multiple of [`PADDING`].
-pub(super) const MAX_SMALL: usize = 24;
 
 /// Whether small fronts are eliminated here. Complex ones on x86 processors without AVX2 are eliminated like large ones: such
 /// processors are rare, and the kernels take long to compile.

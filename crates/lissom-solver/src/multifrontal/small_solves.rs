@@ -4,7 +4,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::{Front, PADDING, Part, Symbolic};
-use super::small::MAX_SMALL;
+use super::supernodes::MAX_SMALL;
 use super::triangular::{gather, subtract_dot};
 use crate::scalar::{Scalar, array, array_mut};
 

@@ -2,7 +2,9 @@
 //! time than two small ones, then traversed in postorder. Uses sizes only, no patterns of single unknowns.
 
 use super::elimination_tree::{EliminationTree, NONE};
-use super::small::MAX_SMALL;
+
+/// Pivots and boundary unknowns of the largest front that is eliminated pivot by pivot. A multiple of the padding of fronts.
+pub(super) const MAX_SMALL: usize = 24;
 
 /// Groups eliminated in one front.
 pub(super) struct Supernode {

@@ -5,8 +5,7 @@
 
 use super::factorisation::Numeric;
 use super::fronts::{Part, Symbolic};
-use super::triangular::FrontVectors;
-use super::{Way, symmetric, triangular};
+use super::triangular::{self, FrontVectors};
 use crate::scalar::Scalar;
 
 /// The numbers of some parts, in order.
@@ -39,6 +38,17 @@ impl<'a, S: Scalar> Sweep<'a, S> {
             (part, own, front_vectors)
         })
     }
+}
+
+/// The system that is solved.
+#[derive(Clone, Copy)]
+pub(super) enum Way {
+    /// L U.
+    Plain,
+    /// (L U)ᵀ.
+    Transposed,
+    /// L D Lᵀ.
+    Symmetric,
 }
 
 /// The factors, and the system that is solved.
@@ -84,7 +94,9 @@ impl<S: Scalar> Factors<'_, S> {
         match self.way {
             Way::Plain => triangular::backward::<S, FUSED>(tree, factors, x, vectors),
             Way::Transposed => triangular::backward_transposed::<S, FUSED>(tree, factors, x, vectors),
-            Way::Symmetric => symmetric::backward::<S, FUSED>(tree, self.numeric, x, vectors),
+            Way::Symmetric => {
+                triangular::backward_symmetric::<S, FUSED>(tree, (factors, &self.numeric.pivots), x, vectors);
+            }
         }
     }
 }
@@ -119,6 +131,44 @@ impl Symbolic {
             for (&step, value) in part.outside.iter().zip(&mut below[part.places.clone()]) {
                 *value = vector[step as usize - top.steps.start];
             }
+        }
+    }
+}
+
+pub struct Forward<'a, S> {
+    pub(super) factors: Factors<'a, S>,
+    pub(super) right_hand_side: Option<&'a [S]>,
+    pub(super) sweep: Sweep<'a, S>,
+}
+
+impl<S: Scalar> pulp::WithSimd for Forward<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        let Forward { factors, right_hand_side, sweep } = self;
+        if V::F64_LANES >= 4 {
+            factors.forward::<true>(right_hand_side, sweep);
+        } else {
+            factors.forward::<false>(right_hand_side, sweep);
+        }
+    }
+}
+
+pub struct Backward<'a, S> {
+    pub(super) factors: Factors<'a, S>,
+    pub(super) sweep: Sweep<'a, S>,
+}
+
+impl<S: Scalar> pulp::WithSimd for Backward<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        if V::F64_LANES >= 4 {
+            self.factors.backward::<true>(self.sweep);
+        } else {
+            self.factors.backward::<false>(self.sweep);
         }
     }
 }

@@ -4,14 +4,9 @@
 //! Squares of fronts are factorised by LU, whose `U` is `D Lᵀ`; of the contribution of a front to its parent only the
 //! lower triangle is computed.
 
-#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-
-use super::factorisation::Numeric;
-use super::fronts::{Part, Symbolic};
-use super::triangular::{self, FrontVectors};
-use super::{Multifrontal, Way, small, small_solves};
+use super::sweeps::Way;
+use super::{Kernels, Multifrontal};
 use crate::report::{FactorError, FactorReport};
-use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
 use crate::structure::Structure;
 
@@ -19,7 +14,7 @@ use crate::structure::Structure;
 /// is read. Complex matrices are symmetric, not Hermitian.
 pub struct Symmetric<S>(Multifrontal<S>);
 
-impl<S: Scalar> Symmetric<S> {
+impl<S: Kernels> Symmetric<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
@@ -29,7 +24,7 @@ impl<S: Scalar> Symmetric<S> {
     }
 }
 
-impl<S: Scalar> LinearSolver<S> for Symmetric<S> {
+impl<S: Kernels> LinearSolver<S> for Symmetric<S> {
     fn name(&self) -> &'static str {
         "symmetric"
     }
@@ -52,41 +47,5 @@ impl<S: Scalar> LinearSolver<S> for Symmetric<S> {
 
     fn set_threads(&mut self, threads: usize) {
         self.0.set_threads(threads);
-    }
-}
-
-/// `x = (D Lᵀ)⁻¹ x` in a part.
-#[inline(always)]
-pub(super) fn backward<S: Scalar, const FUSED: bool>(
-    (symbolic, part): (&Symbolic, &Part),
-    numeric: &Numeric<S>,
-    x: &mut [S],
-    vectors: &mut FrontVectors<S>,
-) {
-    for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
-        if const { small::is_for::<S>(FUSED) } && front.is_small() {
-            let (square, lower, _) = small_solves::pieces(front, &numeric.factors);
-            small_solves::backward::<S, FUSED, true>(
-                (symbolic, part),
-                front,
-                (square, lower),
-                x,
-                &mut vectors.boundary,
-            );
-            continue;
-        }
-        let (square, lower) = numeric.factors[front.factor_range()].split_at(front.square_length());
-        triangular::gather(symbolic, front, x, &mut vectors.boundary);
-        let steps = part.steps_of(front);
-        let of_front = &numeric.pivots[front.first..front.first + front.pivots];
-        let pivots = &mut vectors.pivots[..front.square_stride()];
-        pivots.fill(S::zero());
-        let known = &vectors.boundary[..front.panel_stride()];
-        triangular::subtract_dots::<S, FUSED>(&mut pivots[..front.pivots], lower, known);
-        for ((value, &right), &pivot) in pivots.iter_mut().zip(&x[steps.clone()]).zip(of_front) {
-            *value = S::multiply_add::<FUSED>(*value, pivot, right);
-        }
-        triangular::solve_upper::<S, FUSED>(pivots, square, front.pivots);
-        x[steps].copy_from_slice(&pivots[..front.pivots]);
     }
 }

@@ -1,9 +1,9 @@
 //! Parallel work on subtrees. The result of a subtree depends neither on the thread nor on the time, so results are
 //! the same for any number of threads.
 
-use super::Largest;
 use super::factorisation::Numeric;
 use super::fronts::{Part, Symbolic};
+use super::instances::{Kernels, Largest};
 use super::sweeps::Sweep;
 use crate::scalar::Scalar;
 
@@ -38,7 +38,7 @@ pub(super) fn crews(subtrees: &[Part], threads: usize) -> Vec<usize> {
 }
 
 /// Factorises all subtrees; returns the largest magnitude of the values, if they are finite.
-pub(super) fn factor<S: Scalar>(
+pub(super) fn factor<S: Kernels>(
     processor: pulp::Arch,
     symbolic: &Symbolic,
     numeric: &mut Numeric<S>,

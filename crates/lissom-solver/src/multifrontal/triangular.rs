@@ -233,6 +233,42 @@ pub(super) fn backward_transposed<S: Scalar, const FUSED: bool>(
     }
 }
 
+/// `x = (D Lᵀ)⁻¹ x` in a part.
+#[inline(always)]
+pub(super) fn backward_symmetric<S: Scalar, const FUSED: bool>(
+    (symbolic, part): (&Symbolic, &Part),
+    (factors, pivots): (&[S], &[S]),
+    x: &mut [S],
+    vectors: &mut FrontVectors<S>,
+) {
+    for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
+        if const { small::is_for::<S>(FUSED) } && front.is_small() {
+            let (square, lower, _) = small_solves::pieces(front, factors);
+            small_solves::backward::<S, FUSED, true>(
+                (symbolic, part),
+                front,
+                (square, lower),
+                x,
+                &mut vectors.boundary,
+            );
+            continue;
+        }
+        let (square, lower) = factors[front.factor_range()].split_at(front.square_length());
+        gather(symbolic, front, x, &mut vectors.boundary);
+        let steps = part.steps_of(front);
+        let of_front = &pivots[front.first..front.first + front.pivots];
+        let pivots = &mut vectors.pivots[..front.square_stride()];
+        pivots.fill(S::zero());
+        let known = &vectors.boundary[..front.panel_stride()];
+        subtract_dots::<S, FUSED>(&mut pivots[..front.pivots], lower, known);
+        for ((value, &right), &pivot) in pivots.iter_mut().zip(&x[steps.clone()]).zip(of_front) {
+            *value = S::multiply_add::<FUSED>(*value, pivot, right);
+        }
+        solve_upper::<S, FUSED>(pivots, square, front.pivots);
+        x[steps].copy_from_slice(&pivots[..front.pivots]);
+    }
+}
+
 #[inline(always)]
 fn pieces<'a, S>(front: &Front, factors: &'a [S]) -> (&'a [S], &'a [S], &'a [S]) {
     let (square, panels) = factors[front.factor_range()].split_at(front.square_length());

@@ -7,8 +7,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::{GroupGraph, HostCount};
-use crate::structure::{Group, Structure};
+use super::GroupGraph;
+use crate::structure::{Group, HostCount, Structure};
 
 /// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: directly after
 /// the last of them and after the groups that are eliminated with that host without fill. Deterministic; of equal

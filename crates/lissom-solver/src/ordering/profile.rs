@@ -4,8 +4,8 @@
 //! found as in George, Liu 1979. Groups with hosts are omitted from the traversal and placed after the last of their
 //! hosts.
 
-use super::{GroupGraph, in_host_order};
-use crate::structure::Structure;
+use super::GroupGraph;
+use crate::structure::{Structure, in_host_order};
 
 /// Order of elimination of the groups that keeps the profile small, with every group directly after the last of its
 /// hosts. Deterministic.

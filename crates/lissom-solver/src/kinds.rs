@@ -1,0 +1,53 @@
+//! The table of the kinds of solvers.
+
+use num_complex::Complex64;
+
+use crate::solver::LinearSolver;
+use crate::structure::Structure;
+use crate::{dense, multifrontal, pivoting, skyline};
+
+/// A kind of solver: one line in [`KINDS`].
+pub struct SolverKind {
+    /// Name, as written in input files.
+    pub name: &'static str,
+    /// One line for manuals.
+    pub summary: &'static str,
+    /// Symbolic analysis for real matrices.
+    pub real: fn(&Structure) -> Box<dyn LinearSolver<f64>>,
+    /// Symbolic analysis for complex matrices.
+    pub complex: fn(&Structure) -> Box<dyn LinearSolver<Complex64>>,
+}
+
+/// Every kind of solver, the default first. The constructors panic on a structure that
+/// [`Structure::check`] rejects.
+pub static KINDS: &[SolverKind] = &[
+    SolverKind {
+        name: multifrontal::NAME,
+        summary: "multifrontal without pivoting: the default, fast for chains, trees and grids alike",
+        real: |structure| Box::new(multifrontal::Multifrontal::<f64>::new(structure)),
+        complex: |structure| Box::new(multifrontal::Multifrontal::<Complex64>::new(structure)),
+    },
+    SolverKind {
+        name: skyline::NAME,
+        summary: "profile storage without pivoting: short, readable, good for chains",
+        real: |structure| Box::new(skyline::Skyline::<f64>::new(structure)),
+        complex: |structure| Box::new(skyline::Skyline::<Complex64>::new(structure)),
+    },
+    SolverKind {
+        name: pivoting::NAME,
+        summary: "sparse LU with partial pivoting: fallback, and for comparison",
+        real: |structure| Box::new(pivoting::Pivoting::<f64>::new(structure)),
+        complex: |structure| Box::new(pivoting::Pivoting::<Complex64>::new(structure)),
+    },
+    SolverKind {
+        name: dense::NAME,
+        summary: "dense matrix with partial pivoting: reference for small sizes",
+        real: |structure| Box::new(dense::Dense::<f64>::new(structure)),
+        complex: |structure| Box::new(dense::Dense::<Complex64>::new(structure)),
+    },
+];
+
+/// The kind of that name.
+pub fn kind(name: &str) -> Option<&'static SolverKind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}
