@@ -27,6 +27,7 @@ mod pose;
 mod real;
 mod rotation;
 mod screw;
+mod screw_operators;
 mod square;
 mod tangent;
 mod triple;
@@ -35,10 +36,7 @@ mod versor;
 #[path = "../tests/exactness/wide.rs"]
 mod wide;
 
-pub use algebra::{
-    axial, coadjoint_matrix, coadjoint_times, lie_bracket, lie_bracket_matrix, rotation_part, screw, skew,
-    translation_part,
-};
+pub use algebra::{axial, rotation_part, screw, skew, translation_part};
 pub use dual::DualMatrix;
 pub use jet::Jet;
 pub use lanes::{Block, Lanes, WIDTH};
@@ -46,7 +44,11 @@ pub use motion::Motion;
 pub use pose::Pose;
 pub use real::Real;
 pub use rotation::{Rotation, rotation_exponential_minus_identity};
-pub use screw::{CurvedTangent, InverseTangent, Screw, TangentOperator};
+pub use screw::Screw;
+pub use screw_operators::{
+    CurvedTangent, InverseTangent, TangentOperator, coadjoint_matrix, coadjoint_times, lie_bracket,
+    lie_bracket_matrix,
+};
 pub use square::Square;
 pub use tangent::{
     ScrewTangent, inverse_tangent, inverse_tangent_derivative, inverse_tangent_derivative_transpose_times,

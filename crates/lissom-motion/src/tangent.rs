@@ -6,7 +6,8 @@
 
 use crate::dual::DualVector;
 use crate::operator::{self, Pair};
-use crate::screw::{CurvedTangent, Screw, TangentOperator};
+use crate::screw::Screw;
+use crate::screw_operators::{CurvedTangent, TangentOperator};
 use crate::triple::Triple;
 use crate::{Matrix3, Matrix6, Vector3, Vector6};
 
