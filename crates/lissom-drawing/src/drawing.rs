@@ -1,9 +1,5 @@
 //! Elements of a drawing.
 
-use crate::png::{self, PngError};
-use crate::raster::Raster;
-use crate::svg;
-
 /// Width of the edge that is drawn around polygons.
 pub(crate) const EDGE: f64 = 0.8;
 
@@ -24,6 +20,28 @@ pub(crate) const COLOUR_COUNT: usize = 7;
 /// Colour of the curve of this index, from zero. Colours repeat after seven.
 pub fn palette(index: usize) -> Shade {
     COLOURS[index % COLOURS.len()]
+}
+
+/// Why a picture cannot be written.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PngError {
+    /// It has no pixels, or there is no picture.
+    #[error("a picture without pixels")]
+    Nothing,
+    /// It has too many.
+    #[error("a picture of {width} x {height} pixels is too large")]
+    TooLarge {
+        /// Width in pixels.
+        width: u64,
+        /// Height in pixels.
+        height: u64,
+    },
+    /// Frames of an animation differ in size.
+    #[error("the pictures of a moving one have different sizes")]
+    Sizes,
+    /// The encoder rejects the picture.
+    #[error("a picture cannot be encoded: {0}")]
+    Encoder(String),
 }
 
 /// Why a drawing cannot be made.
@@ -112,30 +130,8 @@ impl Drawing {
         self.shapes.iter().filter(|shape| matches!(shape, Shape::Polygon { .. })).count()
     }
 
-    /// The drawing as an SVG text.
-    ///
-    /// # Errors
-    /// If a position is not a finite number.
-    pub fn svg(&self) -> Result<String, DrawingError> {
-        self.check()?;
-        Ok(svg::text(self))
-    }
-
-    /// The drawing as the bytes of a PNG file, two pixels for each of the drawing.
-    ///
-    /// # Errors
-    /// If a position is not a finite number, or the drawing is too large.
-    pub fn png(&self) -> Result<Vec<u8>, DrawingError> {
-        Ok(png::picture(&self.raster(2.0)?)?)
-    }
-
-    /// The drawing as outlines, `scale` pixels for each of its own.
-    pub(crate) fn raster(&self, scale: f64) -> Result<Raster, DrawingError> {
-        self.check()?;
-        Ok(Raster::new(self, scale)?)
-    }
-
-    fn check(&self) -> Result<(), DrawingError> {
+    /// Whether all positions are finite.
+    pub(crate) fn check(&self) -> Result<(), DrawingError> {
         let is_placed = self.shapes.iter().all(|shape| {
             let places = match shape {
                 Shape::Polygon { points, .. } | Shape::Line { points, .. } => points.as_slice(),

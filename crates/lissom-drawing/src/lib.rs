@@ -20,7 +20,7 @@ mod png;
 mod raster;
 mod svg;
 
-pub use self::png::{PngError, animation};
+pub use self::png::animation;
 pub use axis::{Axis, Scale};
 pub use chart::{Chart, Curve, Mark, Panel};
-pub use drawing::{Align, Drawing, DrawingError, Shade, palette};
+pub use drawing::{Align, Drawing, DrawingError, PngError, Shade, palette};

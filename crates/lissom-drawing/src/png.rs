@@ -3,30 +3,8 @@
 
 use png::{ColorType, Compression, Encoder, EncodingError, Filter};
 
-use crate::drawing::{Drawing, DrawingError};
+use crate::drawing::{Drawing, DrawingError, PngError};
 use crate::raster::Raster;
-
-/// Why a picture cannot be written.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PngError {
-    /// It has no pixels, or there is no picture.
-    #[error("a picture without pixels")]
-    Nothing,
-    /// It has too many.
-    #[error("a picture of {width} x {height} pixels is too large")]
-    TooLarge {
-        /// Width in pixels.
-        width: u64,
-        /// Height in pixels.
-        height: u64,
-    },
-    /// Frames of an animation differ in size.
-    #[error("the pictures of a moving one have different sizes")]
-    Sizes,
-    /// The encoder rejects the picture.
-    #[error("a picture cannot be encoded: {0}")]
-    Encoder(String),
-}
 
 impl From<EncodingError> for PngError {
     fn from(error: EncodingError) -> Self {
@@ -34,8 +12,18 @@ impl From<EncodingError> for PngError {
     }
 }
 
+impl Drawing {
+    /// The drawing as the bytes of a PNG file, two pixels for each of the drawing.
+    ///
+    /// # Errors
+    /// If a position is not a finite number, or the drawing is too large.
+    pub fn png(&self) -> Result<Vec<u8>, DrawingError> {
+        Ok(picture(&self.raster(2.0)?)?)
+    }
+}
+
 /// The bytes of a PNG file.
-pub(crate) fn picture(raster: &Raster) -> Result<Vec<u8>, PngError> {
+fn picture(raster: &Raster) -> Result<Vec<u8>, PngError> {
     let mut file = Vec::new();
     let mut writer = encoder(&mut file, raster).write_header()?;
     let mut stream = writer.stream_writer()?;

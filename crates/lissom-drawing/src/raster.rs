@@ -7,9 +7,8 @@ use tiny_skia::{
     FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform,
 };
 
-use crate::drawing::{Align, DASH, Drawing, EDGE, Shade, Shape};
+use crate::drawing::{Align, DASH, Drawing, DrawingError, EDGE, PngError, Shade, Shape};
 use crate::lettering;
-use crate::png::PngError;
 
 /// Maximum number of pixels of a picture.
 const MAX_PIXELS: f64 = 1e8;
@@ -17,6 +16,14 @@ const MAX_PIXELS: f64 = 1e8;
 /// Number of rows that are drawn at once. They stay in the cache, whereas for a whole picture the system would provide
 /// new memory, which takes longer than drawing.
 const BAND: u32 = 64;
+
+impl Drawing {
+    /// The drawing as outlines, `scale` pixels for each of its own.
+    pub(crate) fn raster(&self, scale: f64) -> Result<Raster, DrawingError> {
+        self.check()?;
+        Ok(Raster::new(self, scale)?)
+    }
+}
 
 /// A drawing as outlines in pixels.
 pub(crate) struct Raster {

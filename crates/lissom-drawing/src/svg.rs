@@ -2,10 +2,21 @@
 
 use std::fmt::Write;
 
-use crate::drawing::{Align, DASH, Drawing, EDGE, Shade, Shape};
+use crate::drawing::{Align, DASH, Drawing, DrawingError, EDGE, Shade, Shape};
+
+impl Drawing {
+    /// The drawing as an SVG text.
+    ///
+    /// # Errors
+    /// If a position is not a finite number.
+    pub fn svg(&self) -> Result<String, DrawingError> {
+        self.check()?;
+        Ok(text(self))
+    }
+}
 
 /// The text of an SVG file.
-pub(crate) fn text(drawing: &Drawing) -> String {
+fn text(drawing: &Drawing) -> String {
     let [width, height] = drawing.size.map(rounded);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
