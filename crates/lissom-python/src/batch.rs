@@ -17,9 +17,9 @@ use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use rayon::prelude::*;
 
-use crate::cached_session::{CachedSession, ColumnNames};
+use crate::cached_session::{CachedSession, ColumnNames, begin};
 use crate::errors::{of_failure, solution, value_error};
-use crate::joints::{JointValues, Joints, begin};
+use crate::joints::{JointValues, Joints};
 use crate::simulation::{Names, warn};
 use crate::watch::{EVERY, asked};
 

@@ -3,9 +3,19 @@
 use std::collections::HashMap;
 
 use lissom::core::errors::Warning;
-use lissom::{Column, Session, with_code};
+use lissom::{Column, JointCoordinateError, Prepared, Session, StartError, with_code};
 
-use crate::joints::Beginning;
+/// Joint values, chosen coordinates and rates with which a session began; none for the start of the model.
+pub(crate) type Beginning = Option<(Vec<(String, f64)>, Option<Vec<String>>, Vec<(String, f64)>)>;
+
+/// A session that begins there.
+pub(crate) fn begin(prepared: &Prepared, beginning: &Beginning) -> Result<Session, JointCoordinateError> {
+    let Some((values, coordinates, rates)) = beginning else {
+        return prepared.session().map_err(|error| StartError::from(error).into());
+    };
+    let chosen = coordinates.as_ref().map(|names| prepared.joint_coordinates(Some(names))).transpose()?;
+    prepared.session_at(values, chosen.as_ref(), rates)
+}
 
 /// A session and the values of its columns.
 pub(crate) struct CachedSession {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lissom::core::studies::joint_space::{JointMotion, JointSpaceError};
-use lissom::{JointCoordinateError, JointCoordinates, JointDynamics, Prepared, Session, StartError};
+use lissom::{JointCoordinateError, JointCoordinates, JointDynamics, Prepared, Session};
 use numpy::{AllowTypeChange, PyArrayLikeDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -30,18 +30,6 @@ impl Rows {
         let own = self.values.iter().skip(row * self.names.len());
         self.names.iter().cloned().zip(own.copied()).collect()
     }
-}
-
-/// Joint values, chosen coordinates and rates with which a session began; none for the start of the model.
-pub(crate) type Beginning = Option<(Vec<(String, f64)>, Option<Vec<String>>, Vec<(String, f64)>)>;
-
-/// A session that begins there.
-pub(crate) fn begin(prepared: &Prepared, beginning: &Beginning) -> Result<Session, JointCoordinateError> {
-    let Some((values, coordinates, rates)) = beginning else {
-        return prepared.session().map_err(|error| StartError::from(error).into());
-    };
-    let chosen = coordinates.as_ref().map(|names| prepared.joint_coordinates(Some(names))).transpose()?;
-    prepared.session_at(values, chosen.as_ref(), rates)
 }
 
 /// The chosen coordinates of a model.

@@ -8,6 +8,7 @@ mod cached_session;
 mod errors;
 mod joints;
 mod model;
+mod model_methods;
 mod results;
 mod simulation;
 mod sweep;

@@ -13,9 +13,9 @@ use pyo3::sync::MutexExt;
 use pyo3::types::{PyBytes, PyFloat};
 
 use crate::analyses::linearize_here;
-use crate::cached_session::{CachedSession, ColumnNames};
+use crate::cached_session::{CachedSession, ColumnNames, begin};
 use crate::errors::{of_input, solution, value_error};
-use crate::joints::{JointValues, Joints, begin, of_joints};
+use crate::joints::{JointValues, Joints, of_joints};
 use crate::model::NativeModel;
 use crate::watch::Watch;
 
