@@ -8,8 +8,8 @@ use std::ops::ControlFlow;
 
 use lissom::core::solver_features::SOLVER_FEATURES;
 use lissom::core::tuning::{TUNING_PARAMETERS, Tuning, TuningParameter};
+use lissom::start::lower;
 use lissom::{Override, Session};
-use lissom_model::lower::lower;
 
 use crate::AblateArguments;
 use crate::bench::processor_time;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use lissom::core::simulation::Simulation;
+use lissom::start::lower;
 use lissom::{Model, Session};
-use lissom_model::lower::lower;
 use serde::{Deserialize, Serialize};
 
 use crate::{cases, scenes, verify};

@@ -7,9 +7,9 @@ use std::process::Command;
 use lissom::campbell::{CampbellError, CampbellRequest, Variation, campbell};
 use lissom::motion::{Motion, MotionRecorder};
 use lissom::picture::{Picture, PictureError, View, instants};
+use lissom::start::lower;
 use lissom::{FileError, FolderError, Model, ResultFolder};
 use lissom_model::files;
-use lissom_model::lower::lower;
 use lissom_model::output::{DrawingError, animation};
 use lissom_model::scene::Scene;
 
@@ -229,7 +229,7 @@ fn joints() -> Result<Vec<u8>, PicturesError> {
         labels: vec![String::new()],
         ..Picture::default()
     };
-    let drawing = picture.draw(&Scene::of(&document, &lowered), &motion, "")?;
+    let drawing = picture.draw(&Scene::of(&document, &lowered.placed()), &motion, "")?;
     Ok(animation(&[drawing], 1.0, SCALE)?)
 }
 

@@ -4,8 +4,8 @@
 use lissom::core::kinematics::Kinematics;
 use lissom::core::settings::Unwatched;
 use lissom::core::simulation::Simulation;
+use lissom::start::lower;
 use lissom::{Model, Override};
-use lissom_model::lower::lower;
 
 use crate::bench::processor_time;
 use crate::scenes;

@@ -36,5 +36,5 @@ pub use reference::model_axes::{EntryAxes, model_axes};
 pub use reference::python_entries::python_entries;
 pub use reference::schema::schema;
 pub use reference::typed_entries::typed_entries;
-pub use text::report::{Located, Problem, Report, Severity, Sources, Span};
+pub use text::report::{Located, Problem, Remark, Report, Severity, Sources, Span};
 pub use text::toml_text;

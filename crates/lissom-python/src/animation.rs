@@ -10,7 +10,7 @@ use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::view::Results;
 use lissom::{Record, ResultFolder, Session, summary};
-use lissom_model::lower::lower;
+use lissom::start::lower;
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;
 
@@ -58,7 +58,7 @@ pub(crate) fn animation(
         lowered.settings.threads = crate::model::threads_or_all(threads).get();
         let bytes = Bytes::default();
         let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, bytes.clone());
-        let scene = Scene::of(&document, &lowered);
+        let scene = Scene::of(&document, &lowered.placed());
         let mut facts = summary::of_model(model.model.name(), &model.overrides, &document, &lowered);
         let mut session = Session::start(lowered).map_err(|error| solution(&error))?;
         session.write_states_to(Box::new(recorder));
@@ -82,7 +82,7 @@ pub(crate) fn modes_animation(model: &NativeModel, py: Python<'_>, request: &str
         let document = model.document()?;
         let found = request.compute(&model.model, &model.overrides).map_err(|error| of_analysis(&error))?;
         let lowered = lower(&document).map_err(|report| of_report(&report))?;
-        let scene = Scene::of(&document, &lowered);
+        let scene = Scene::of(&document, &lowered.placed());
         let bytes = Bytes::default();
         let mut recorder = MotionRecorder::new(&lowered, None, bytes.clone());
         recorder.write_still(&found.state).map_err(|error| of_motion(&error))?;

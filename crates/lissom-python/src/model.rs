@@ -5,7 +5,7 @@ use std::num::NonZero;
 
 use lissom::{Document, Model, Override, SessionError};
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
+use lissom::start::lower;
 use pyo3::prelude::*;
 
 use crate::errors::{of_report, of_session};

@@ -131,6 +131,7 @@ pub mod picture;
 mod results;
 mod run;
 mod session;
+pub mod start;
 pub mod study;
 pub mod sweep;
 pub mod view;

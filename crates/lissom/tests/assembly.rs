@@ -4,8 +4,8 @@ mod options;
 
 use std::fmt::Write;
 
+use lissom::start::{Assembly, Lowered, lower};
 use lissom::{Model, SessionError};
-use lissom_model::lower::{Assembly, Lowered, lower};
 use lissom_motion::{Rotation, Vector3};
 
 /// Numbers that look like chance, the same every time.

@@ -3,8 +3,8 @@
 use crate::support::rail;
 use crate::support::sessions;
 
+use lissom::start::lower;
 use lissom::{Model, Session};
-use lissom_model::lower::lower;
 use sessions::{finished, session};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];

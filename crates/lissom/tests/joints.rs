@@ -7,7 +7,7 @@ mod rates;
 use lissom::{Model, Record};
 use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
 
-const EVERY_KIND: &str = include_str!("../../lissom-model/tests/every_kind.toml");
+const EVERY_KIND: &str = include_str!("models/every_kind.toml");
 const OUTPUTS: &str = "
 [outputs.nut]
 kind = \"position\"

@@ -36,6 +36,7 @@ mod joints;
 mod latches;
 mod local_loads;
 mod machines;
+mod models;
 mod modes;
 mod multiblade;
 mod path;

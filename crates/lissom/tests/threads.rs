@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use lissom::core::system::WORTH_WHILE;
+use lissom::start::lower;
 use lissom::{Model, Session};
-use lissom_model::lower::lower;
 
 /// A chain of bodies on spherical joints, one more than the number at which a second thread is used.
 fn chain() -> String {

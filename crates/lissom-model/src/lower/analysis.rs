@@ -64,7 +64,10 @@ const FIRST_LOAD_STEP: f64 = 0.1;
 const LONGEST_LOAD_STEP: f64 = 0.25;
 
 /// Settings and plan of an analysis.
-pub(super) fn settings(document: &Document) -> Result<(Settings, Plan), Problem> {
+///
+/// # Errors
+/// If a word or a parameter is invalid.
+pub fn settings(document: &Document) -> Result<(Settings, Plan), Problem> {
     let analysis = &document.analysis;
     let duration = analysis.end - analysis.start;
     let (scheme, step_size, steps, choice) = match &analysis.kind {

@@ -18,7 +18,6 @@ use lissom_motion::{Motion, Rotation, Vector3};
 use lissom_system::Builder;
 use nalgebra::Vector2;
 
-use super::Lowered;
 use super::names::Names;
 use super::straight_line::Line;
 use crate::document::{ContactEntry, Document, NodeLocation, Restitution};
@@ -76,14 +75,14 @@ pub struct FrictionPoints {
     pub sliding: usize,
 }
 
-impl Lowered {
+impl Names {
     /// Points of contact with friction that touch in the state `at` of the model of `document`; none without such contacts.
     pub fn friction_points(&self, document: &Document, at: &Kinematics) -> Option<FrictionPoints> {
         let with_friction = document.contacts.iter().filter(|entry| entry.friction.is_some());
         let mut names = with_friction.map(|entry| &entry.name.value).peekable();
         names.peek()?;
         let mut found = FrictionPoints::default();
-        for point in names.filter_map(|name| self.names.contacts.get(name)).flatten() {
+        for point in names.filter_map(|name| self.contacts.get(name)).flatten() {
             let forces = point.contact.forces_at(at);
             found.sliding += usize::from(forces.is_touching && forces.is_sliding);
             found.sticking += usize::from(forces.is_touching && !forces.is_sliding);

@@ -1,7 +1,6 @@
 //! Conversion of a checked document to a system, with the core's builder and the registry. Contains no mechanics.
 
 mod analysis;
-mod assembly;
 mod beam_contacts;
 mod connections;
 mod contacts;
@@ -9,7 +8,6 @@ mod couplings;
 mod delay;
 mod discrete_filter;
 mod distributed;
-mod initial_state;
 mod latches;
 mod local_loads;
 mod measurements;
@@ -20,7 +18,6 @@ mod over_argument;
 mod parts;
 mod ports;
 mod readings;
-mod redundancy;
 pub mod registry;
 mod resource_limits;
 mod rigid_contacts;
@@ -30,18 +27,14 @@ mod superelements;
 
 use std::sync::Arc;
 
-use lissom_core::assembly::{AssemblyError, assemble};
-use lissom_core::errors::Warning;
 use lissom_mechanics::elements::beam::section_error::{ExaminedBeams, SectionError};
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId};
-use lissom_motion::Motion;
+use lissom_mechanics::kinematics::{CoordinateId, NodeId};
 use lissom_system::accumulated::Accumulated;
-use lissom_system::settings::Settings;
 use lissom_system::{Builder, State, System};
 
 pub use contacts::FrictionPoints;
 
-use crate::document::{DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document};
+use crate::document::Document;
 use crate::functions::Ramp;
 use crate::outputs::channels::Channel;
 use crate::outputs::entry::{Output, OutputSource};
@@ -49,78 +42,37 @@ use crate::outputs::kinds::Subject;
 use crate::outputs::reaction::REACTION;
 use crate::outputs::section::SECTION_MOMENT;
 use crate::reading::node_reference::NodeReference;
-use crate::sweep::TimeWindow;
 use crate::text::report::{Located, Problem, Report};
 
-pub use analysis::{Plan, Records};
-pub use assembly::{Assembly, Brought, MovedPart};
+pub use analysis::{Plan, Records, settings};
 pub use names::Names;
 pub use resource_limits::check_run;
 
-/// A model ready to run. Copies share the system.
-#[derive(Clone)]
-pub struct Lowered {
-    /// The simulated system.
-    pub system: Arc<System>,
+/// A system with the names of its parts. Positions and velocities at the start may still be changed.
+pub struct Built {
+    /// The system.
+    pub system: System,
     /// Positions and velocities at the start.
     pub state: State,
-    /// Scheme, step size, scaling, limits, solver.
-    pub settings: Settings,
-    /// From when to when, in how many steps.
-    pub plan: Plan,
-    /// Quantities to be recorded.
-    pub channels: Vec<Channel>,
-    /// Part of the records from which statistics are computed.
-    pub statistics_window: TimeWindow,
-    /// Quantities to be accumulated over the steps, for channels.
-    pub accumulated: Vec<Arc<dyn Accumulated>>,
-    /// Names of the columns that are not unique because constraints repeat each other at the start.
-    pub not_unique: Vec<String>,
     /// Where the parts of the model are among the nodes and coordinates, and its signals.
     pub names: Names,
-    /// Information about the model before the run.
-    pub warnings: Vec<Warning>,
-    /// Result of the assembly, if requested.
-    pub assembly: Option<Assembly>,
-    /// Nodes that assemblies leave where they are.
-    fixed: Vec<NodeId>,
+    /// Values of coordinates at the start, as given [rad, m].
+    pub start_values: Vec<(CoordinateId, f64)>,
 }
 
-impl Lowered {
-    /// The positions at the start, changed so that coordinates of joints have these values [rad, m] and all joints close.
-    ///
-    /// # Errors
-    /// If there are none nearby.
-    pub fn positions_with(&self, values: &[(CoordinateId, f64)]) -> Result<Kinematics, AssemblyError> {
-        let mut at = self.state.kinematics.clone();
-        assemble(
-            &self.system,
-            &mut at,
-            &assembly::request(&self.names, &self.fixed, values, ASSEMBLY_TOLERANCE),
-        )?;
-        Ok(at)
-    }
-
-    /// Frame of a node as the model describes it, which an assembly may have moved.
-    pub fn drawn_frame(&self, node: NodeId) -> Motion {
-        let at_start = || self.state.kinematics.nodes[node].frame;
-        self.assembly.as_ref().map_or_else(at_start, |assembly| assembly.drawn[node])
-    }
+/// Quantities that are recorded.
+pub struct Observed {
+    /// Quantities to be recorded.
+    pub channels: Vec<Channel>,
+    /// Quantities to be accumulated over the steps, for channels.
+    pub accumulated: Vec<Arc<dyn Accumulated>>,
 }
 
-/// Makes the system a document describes.
+/// Builds the system that a document describes, with all degrees of freedom of some nodes locked.
 ///
 /// # Errors
 /// All problems found, underlined in the model's text.
-pub fn lower(document: &Document) -> Result<Lowered, Report> {
-    lower_locked(document, &[])
-}
-
-/// The same with all degrees of freedom of some nodes locked.
-///
-/// # Errors
-/// As [`lower`].
-pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
+pub fn build(document: &Document, locked: &[NodeId]) -> Result<Built, Report> {
     let mut problems = Vec::new();
     resource_limits::check(document, &mut problems);
     stop_at(document, &mut problems)?;
@@ -141,64 +93,44 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;
-    let (settings, plan) = match analysis::settings(document) {
-        Ok(chosen) => chosen,
-        Err(problem) => return Err(document.report(vec![problem])),
-    };
     let start_values = builder.start_values().to_vec();
-    let built = builder
+    let (system, state) = builder
         .build(document.analysis.start)
-        .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]));
-    let (mut system, mut state) = built?;
-    let drawn = state.clone();
-    let mut assembly = None;
-    if let Some(asked) = &document.assembly {
-        let model = (&system, &names);
-        match assembly::assembled(document, asked, model, &start_values, &mut state.kinematics) {
-            Ok(assembled) => assembly = Some(assembled),
-            Err(problem) => return Err(document.report(vec![problem])),
-        }
+        .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]))?;
+    Ok(Built { system, state, names, start_values })
+}
+
+impl Built {
+    /// Gives parts the velocities of the document.
+    pub fn set_velocities(&mut self, document: &Document) {
+        parts::velocities(document, &self.names, &self.system, &mut self.state.kinematics);
     }
-    parts::velocities(document, &names, &system, &mut state.kinematics);
-    // Displacements count from here, also where the motion begins deformed.
-    let undeformed = state.clone();
-    if document.starts_in_steady_rotation() {
-        match initial_state::steady_rotation(document, &system, &state, &settings) {
-            Ok(turning) => state = turning,
-            Err(problem) => return Err(document.report(vec![problem])),
-        }
+
+    /// Binds outputs and readings. Displacements count from the states `[drawn, undeformed]`.
+    ///
+    /// # Errors
+    /// All problems, and those found before.
+    pub fn observe(
+        &mut self,
+        document: &Document,
+        [drawn, undeformed]: [&State; 2],
+        mut problems: Vec<Problem>,
+    ) -> Result<Observed, Report> {
+        let Self { system, state, names, .. } = self;
+        contacts::start(names.contacts.values().flatten(), &mut state.kinematics);
+        couplings::check(document, system, state, &mut problems);
+        let (channels, accumulated) =
+            output_channels::of(document, system, (drawn, undeformed), &names.resolver(), &mut problems);
+        let readings = readings::bind(&names.readings, &channels, accumulated.len(), &mut problems);
+        system.assign_readings(readings);
+        stop_at(document, &mut problems)?;
+        system.beams = ExaminedBeams {
+            elements: names.lines.iter().map(|(name, line)| (name.clone(), line.elements.clone())).collect(),
+            section_errors: section_errors(document, names, system),
+            sections_at_joints: sections_at_joints(document, names, system),
+        };
+        Ok(Observed { channels, accumulated })
     }
-    contacts::start(names.contacts.values().flatten(), &mut state.kinematics);
-    let mut warnings = initial_state::drives(document, &system, &state, &mut problems);
-    couplings::check(document, &system, &state, &mut problems);
-    let (channels, accumulated) =
-        output_channels::of(document, &system, (&drawn, &undeformed), &names.resolver(), &mut problems);
-    system.assign_readings(readings::bind(&names.readings, &channels, accumulated.len(), &mut problems));
-    stop_at(document, &mut problems)?;
-    system.beams = ExaminedBeams {
-        elements: names.lines.iter().map(|(name, line)| (name.clone(), line.elements.clone())).collect(),
-        section_errors: section_errors(document, &names, &system),
-        sections_at_joints: sections_at_joints(document, &names, &system),
-    };
-    let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
-    warnings.extend(doubt);
-    let system = Arc::new(system);
-    let asked = document.assembly.as_ref();
-    let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
-    Ok(Lowered {
-        system,
-        state,
-        settings,
-        plan,
-        channels,
-        statistics_window: document.analysis.statistics_window.clone(),
-        accumulated,
-        not_unique,
-        names,
-        warnings,
-        assembly,
-        fixed,
-    })
 }
 
 /// Of all section forces and moments that are recorded.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_core::linearized::{LinearModel, OutputDerivatives};
 use lissom_system::Need;
+use lissom_system::OutputDerivatives;
 use lissom_system::{State, System};
 
 use crate::outputs::differences;
@@ -69,21 +69,6 @@ impl Channel {
 }
 
 impl Channel {
-    /// Derivatives of its components at the state of `model`, in its unknowns; none of accumulated numbers.
-    pub fn derivatives(&self, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
-        let state = State {
-            kinematics: model.kinematics().clone(),
-            multipliers: model.multipliers().to_vec(),
-            violations: Vec::new(),
-            algorithmic: Vec::new(),
-            time_remainder: 0.0,
-            position_remainders: Vec::new(),
-            accumulated: Vec::new(),
-        };
-        let found = self.derivatives_at(model.system(), &state, model.length())?;
-        Some(found.into_iter().map(|output| model.along_departures(output)).collect())
-    }
-
     /// Derivatives of its components by positions, velocities, accelerations, multipliers and held values at a state; exact
     /// where there are formulas, otherwise by differences. `length` [m] is of the size of the model.
     pub fn derivatives_at(

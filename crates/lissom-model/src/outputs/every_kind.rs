@@ -11,7 +11,7 @@ use lissom_system::OutputDerivatives;
 use lissom_system::{State, System};
 
 use crate::lower::registry::registry;
-use crate::lower::{Lowered, lower};
+use crate::lower::{Built, Observed, build};
 use crate::outputs::Evaluation;
 use crate::outputs::channels::{Channel, signal_value};
 use crate::outputs::kinds::{Feature, Feeds, OutputKind};
@@ -27,12 +27,12 @@ const RECOVERY: &str = "%%MatrixMarket matrix coordinate real general\n1 7 1\n1 
 const AT_SAMPLES_ALONE: [&str; 3] = ["mixed", "drive_power", "scaled_power"];
 
 /// The model with more signals.
-fn lowered(signals: &str) -> Lowered {
+fn lowered(signals: &str) -> (Built, Observed) {
     attempt(signals).unwrap_or_else(|report| panic!("{}", report.render(false)))
 }
 
 /// The model with more signals, or why there is none.
-fn attempt(signals: &str) -> Result<Lowered, Report> {
+fn attempt(signals: &str) -> Result<(Built, Observed), Report> {
     let files = [("mass.mtx", MASS), ("stiffness.mtx", STIFFNESS), ("recovery.mtx", RECOVERY)];
     let library = Library::of_texts(files.map(|(path, text)| (path.to_owned(), text.to_owned())));
     let text = MODEL.replacen("[signals]\n", &format!("[signals]\n{signals}"), 1);
@@ -40,7 +40,12 @@ fn attempt(signals: &str) -> Result<Lowered, Report> {
         .unwrap_or_else(|report| panic!("{}", report.render(false)));
     let document =
         text.document(&registry(), &[]).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    lower(&document)
+    let mut built = build(&document, &[])?;
+    let drawn = built.state.clone();
+    built.set_velocities(&document);
+    let undeformed = built.state.clone();
+    let observed = built.observe(&document, [&drawn, &undeformed], Vec::new())?;
+    Ok((built, observed))
 }
 
 fn waves(seed: f64) -> Vector6 {
@@ -48,7 +53,7 @@ fn waves(seed: f64) -> Vector6 {
 }
 
 /// The start of the model, with everything in motion.
-fn in_motion(Lowered { state, accumulated, .. }: &Lowered) -> State {
+fn in_motion((Built { state, .. }, Observed { accumulated, .. }): &(Built, Observed)) -> State {
     let mut state = state.clone();
     for (index, node) in state.kinematics.nodes.iter_mut().enumerate().skip(1) {
         let seed = 2.3 * index as f64;
@@ -77,7 +82,7 @@ fn values(channel: &Channel, system: &System, state: &State) -> Vec<f64> {
 
 #[test]
 fn every_kind_has_a_scene() {
-    let model = lowered("");
+    let (_, model) = lowered("");
     for kind in OutputKind::all() {
         assert!(model.channels.iter().any(|channel| channel.kind == kind), "no scene of {}", kind.name());
     }
@@ -86,7 +91,7 @@ fn every_kind_has_a_scene() {
 /// Continuous signals of kinds that feed them at all times, sampled ones of all kinds.
 #[test]
 fn signals_have_the_values_that_are_recorded() {
-    let plain = lowered("");
+    let (_, plain) = lowered("");
     let mut signals = String::new();
     for channel in &plain.channels {
         for component in &channel.components {
@@ -100,7 +105,8 @@ fn signals_have_the_values_that_are_recorded() {
         }
     }
     let model = lowered(&signals);
-    let system = &model.system;
+    let (built, observed) = &model;
+    let system = &built.system;
     let mut state = in_motion(&model);
     let readings: Vec<_> = system.take_readings(&state).collect();
     for (held, value) in readings {
@@ -108,11 +114,11 @@ fn signals_have_the_values_that_are_recorded() {
     }
     system.signals().begin(&mut state.kinematics).expect("finite");
     let mut compared = BTreeMap::new();
-    for channel in &model.channels {
+    for channel in &observed.channels {
         for (component, recorded) in channel.components.iter().zip(values(channel, system, &state)) {
             for kind in ["sampled", "at_all_times"] {
                 let name = format!("{kind}_{}_{component}", channel.name);
-                let Some(&signal) = model.names.signals.get(&name) else { continue };
+                let Some(&signal) = built.names.signals.get(&name) else { continue };
                 let value = signal_value(system, &state.kinematics, signal);
                 assert!(value.to_bits() == recorded.to_bits(), "{name}: {value} but recorded {recorded}");
                 *compared.entry((channel.kind.name(), kind)).or_insert(0) += 1;
@@ -221,10 +227,11 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
 #[test]
 fn derivatives_are_those_of_differences() {
     let model = lowered("");
-    let system = &model.system;
+    let (built, observed) = &model;
+    let system = &built.system;
     let state = in_motion(&model);
     let directions = directions(system, &state);
-    for channel in &model.channels {
+    for channel in &observed.channels {
         let Some(found) = channel.derivatives_at(system, &state, 1.0) else {
             assert!(channel.kind.has(Feature::Accumulated), "{} has no derivatives", channel.name);
             continue;

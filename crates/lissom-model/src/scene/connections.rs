@@ -153,7 +153,7 @@ pub(super) fn beam_loads(document: &Document, places: &Places<'_>) -> Vec<BeamLo
     let (start, end) = (document.analysis.start, document.analysis.end);
     let mut found = Vec::new();
     for beam in &document.beams {
-        let Some(line) = places.lowered.names.lines.get(&beam.name.value) else { continue };
+        let Some(line) = places.of.names.lines.get(&beam.name.value) else { continue };
         let step = line.nodes.len().div_ceil(MAX_PLACES).max(1);
         let kept: Vec<usize> = (0..line.nodes.len()).step_by(step).collect();
         let anchor = |&k: &usize| Anchor { node: line.nodes[k], position: line.offsets[k].position.into() };

@@ -205,14 +205,16 @@ fn global(places: &Places<'_>, anchor: &Anchor, direction: &Vector3) -> Vector3 
 
 #[cfg(test)]
 mod tests {
+    use super::super::places::Placed;
     use super::super::{Form, Scene, Symbol};
     use crate::document::Document;
-    use crate::lower::lower;
+    use crate::lower::build;
     use crate::lower::registry::registry;
 
     fn symbols(text: &str, name: &str) -> Vec<Symbol> {
         let document = Document::parse(text, "model.toml", &registry()).expect("it is right");
-        let scene = Scene::of(&document, &lower(&document).expect("it is right"));
+        let built = build(&document, &[]).expect("it is right");
+        let scene = Scene::of(&document, &Placed::as_built(&built));
         scene.symbols.into_iter().filter(|symbol| symbol.name == name).collect()
     }
 

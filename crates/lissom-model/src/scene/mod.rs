@@ -21,14 +21,13 @@ use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::document::Document;
-use crate::lower::Lowered;
 use crate::outputs::entry::{OutputSource, ReactionAxes};
 
 pub use crate::sections::Outline;
 pub use connections::{BeamLoad, Joint, Load, Spring};
 pub use parts::{Beam, Body, PointMass, Station};
 pub use path_values::PathValues;
-pub use places::Anchor;
+pub use places::{Anchor, Placed};
 use places::{Places, part_of};
 pub use shapes::InertiaBox;
 pub use solids::{Form, Solid, Tone};
@@ -107,9 +106,9 @@ pub struct Output {
 }
 
 impl Scene {
-    /// How `document`, lowered to `lowered`, looks.
-    pub fn of(document: &Document, lowered: &Lowered) -> Self {
-        let places = Places { lowered };
+    /// How `document` looks with its parts at these positions.
+    pub fn of(document: &Document, placed: &Placed<'_>) -> Self {
+        let places = Places { of: placed };
         let (mut symbols, mut rods) = symbols::symbols(document, &places);
         let (listed, interfaces, lines) = superelements::superelements(document, &places);
         let mut joints = connections::joints(document, &places);
@@ -122,7 +121,7 @@ impl Scene {
             gravity: document.gravity.into(),
             start: document.analysis.start,
             end: document.analysis.end,
-            is_static: lowered.plan.is_static,
+            is_static: placed.is_static,
             path: None,
             bodies: parts::bodies(document, &places),
             point_masses: parts::point_masses(document, &places),

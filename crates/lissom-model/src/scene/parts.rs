@@ -91,7 +91,7 @@ pub struct Beam {
 }
 
 pub(super) fn bodies(document: &Document, places: &Places<'_>) -> Vec<Body> {
-    let nodes = &places.lowered.names.nodes;
+    let nodes = &places.of.names.nodes;
     let drawn = |body: &crate::document::Body| {
         let row = |k: usize| [0, 1, 2].map(|j| body.inertia[(k, j)]);
         Some(Body {
@@ -112,7 +112,7 @@ fn symmetric(matrix: &Matrix3) -> Matrix3 {
 }
 
 pub(super) fn point_masses(document: &Document, places: &Places<'_>) -> Vec<PointMass> {
-    let nodes = &places.lowered.names.nodes;
+    let nodes = &places.of.names.nodes;
     let drawn = |mass: &crate::document::PointMass| {
         let name = mass.name.value.clone();
         let surface = mass.surface.as_deref().cloned();
@@ -153,11 +153,10 @@ fn planes(document: &Document, places: &Places<'_>) -> Surface {
     }
     let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
     let mut include = |point: Vector3| (low, high) = (low.inf(&point), high.sup(&point));
-    let nodes = &places.lowered.state.kinematics.nodes;
+    let nodes = places.of.nodes;
     nodes.iter().skip(1).for_each(|node| include(node.frame.position));
     for body in &document.bodies {
-        let (Some(surface), Some(node)) = (&body.surface, places.lowered.names.nodes.get(&body.name.value))
-        else {
+        let (Some(surface), Some(node)) = (&body.surface, places.of.names.nodes.get(&body.name.value)) else {
             continue;
         };
         for point in &surface.points {
@@ -179,7 +178,7 @@ fn planes(document: &Document, places: &Places<'_>) -> Surface {
 
 pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {
     let drawn = |beam: &crate::document::Beam| {
-        let line = places.lowered.names.lines.get(&beam.name.value)?;
+        let line = places.of.names.lines.get(&beam.name.value)?;
         let is_carried = |(_, offset): &(usize, &Motion)| **offset != Motion::identity();
         let offset =
             |(k, offset): (usize, &Motion)| (k, offset.position.into(), offset.rotation.quaternion());

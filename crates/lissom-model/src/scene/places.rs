@@ -1,10 +1,10 @@
 //! Positions of named parts among the nodes.
 
-use lissom_mechanics::kinematics::{GROUND, NodeId};
+use lissom_mechanics::kinematics::{GROUND, NodeId, NodeMotion};
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::lower::Lowered;
+use crate::lower::Names;
 use crate::reading::node_reference::{NodeReference, interface_name};
 use crate::text::report::Located;
 
@@ -17,15 +17,28 @@ pub struct Anchor {
     pub position: [f64; 3],
 }
 
+/// Parts of a model among its nodes, at their start.
+#[derive(Clone, Copy)]
+pub struct Placed<'a> {
+    /// Where the parts are among the nodes.
+    pub names: &'a Names,
+    /// Motions of the nodes.
+    pub nodes: &'a [NodeMotion],
+    /// Frames of the nodes as the model describes them, where an assembly has moved them.
+    pub drawn: Option<&'a [Motion]>,
+    /// Whether time represents the growth of loads.
+    pub is_static: bool,
+}
+
 /// Where named things are among the nodes.
 pub(super) struct Places<'a> {
-    pub(super) lowered: &'a Lowered,
+    pub(super) of: &'a Placed<'a>,
 }
 
 impl Places<'_> {
     /// The node a reference means; none where a beam has no node there.
     pub(super) fn node(&self, reference: &NodeReference) -> Option<NodeId> {
-        let names = &self.lowered.names;
+        let names = self.of.names;
         match reference {
             NodeReference::Ground => Some(GROUND),
             NodeReference::Body(name) | NodeReference::PointMass(name) => names.nodes.get(name).copied(),
@@ -38,7 +51,7 @@ impl Places<'_> {
 
     /// Pose of a node as the model describes it.
     pub(super) fn frame(&self, node: NodeId) -> Motion {
-        self.lowered.drawn_frame(node)
+        self.of.drawn.map_or_else(|| self.of.nodes[node].frame, |drawn| drawn[node])
     }
 
     /// The position `at` of the model, carried by a node.
@@ -58,7 +71,7 @@ impl Places<'_> {
         let position = match (point, reference) {
             (Some(point), _) => self.frame(node).inverse_transform_point(point),
             (None, NodeReference::Beam { beam, .. }) => {
-                let line = self.lowered.names.lines.get(beam)?;
+                let line = self.of.names.lines.get(beam)?;
                 let index = line.nodes.iter().position(|other| *other == node)?;
                 line.offsets[index].position
             }
@@ -75,5 +88,14 @@ pub(super) fn part_of(reference: &NodeReference) -> &str {
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,
         NodeReference::Beam { beam, .. } => beam,
         NodeReference::Interface { superelement, .. } => superelement,
+    }
+}
+
+#[cfg(test)]
+impl<'a> Placed<'a> {
+    /// Of a model that is not moved before its start.
+    pub(crate) fn as_built(built: &'a crate::lower::Built) -> Self {
+        let crate::lower::Built { names, state, .. } = built;
+        Self { names, nodes: &state.kinematics.nodes, drawn: None, is_static: false }
     }
 }

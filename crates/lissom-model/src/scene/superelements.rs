@@ -14,7 +14,7 @@ pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Jo
     let axes = Axes::of(&Vector3::x(), None);
     for element in &document.superelements {
         let name = &element.name.value;
-        let Some(nodes) = places.lowered.names.superelements.get(name) else { continue };
+        let Some(nodes) = places.of.names.superelements.get(name) else { continue };
         joints.push(Joint {
             name: name.clone(),
             kind: "superelement".to_owned(),

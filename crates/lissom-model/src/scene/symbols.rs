@@ -159,7 +159,7 @@ fn thickness(document: &Document, places: &Places<'_>, node: NodeId) -> f64 {
         Outline::Ellipse { width, height, .. } => width.min(height),
     };
     let ends_there = |beam: &&crate::document::Beam| {
-        let line = places.lowered.names.lines.get(&beam.name.value);
+        let line = places.of.names.lines.get(&beam.name.value);
         node != GROUND
             && line.is_some_and(|line| line.nodes.first() == Some(&node) || line.nodes.last() == Some(&node))
     };
@@ -189,8 +189,9 @@ pub(super) fn attached(
 #[cfg(test)]
 mod tests {
     use super::super::Scene;
+    use super::super::places::Placed;
     use super::*;
-    use crate::lower::lower;
+    use crate::lower::build;
     use crate::lower::registry::registry;
 
     /// Both wheels have the offset 0.1506 m, to both sides.
@@ -198,7 +199,8 @@ mod tests {
     fn wheels_on_rails_stand_at_their_offset() {
         let text = include_str!("../../../../examples/wheelset.toml");
         let document = Document::parse(text, "wheelset.toml", &registry()).expect("it is right");
-        let scene = Scene::of(&document, &lower(&document).expect("it is right"));
+        let built = build(&document, &[]).expect("it is right");
+        let scene = Scene::of(&document, &Placed::as_built(&built));
         for (joint, offset) in [("left", 0.1506), ("right", -0.1506)] {
             let mut wheels =
                 scene.symbols.iter().filter(|own| own.name == joint && own.anchor.node != GROUND);

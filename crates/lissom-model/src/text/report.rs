@@ -1,7 +1,6 @@
 //! Problems of a model file with the positions that they underline, collected in a report.
 //! Independent of the meaning of keys.
 
-use lissom_core::errors::Warning;
 use lissom_mechanics::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
 use lissom_mechanics::kinematics::Subject;
 use std::collections::{BTreeMap, BTreeSet};
@@ -81,6 +80,17 @@ pub enum Severity {
     Error,
     /// The model can be used, but may contain a mistake.
     Warning,
+}
+
+/// A problem without its position.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// The part it is about.
+    pub part: Subject,
+    /// One sentence.
+    pub message: String,
+    /// A remedy; may be empty.
+    pub help: String,
 }
 
 /// An error or warning with its position and remedy.
@@ -455,8 +465,8 @@ impl Report {
         self.shown.iter().map(of).collect()
     }
 
-    /// Every problem as a warning of the catalogue.
-    pub fn warnings(&self) -> impl Iterator<Item = Warning> {
+    /// Every problem with the part that it is about.
+    pub fn remarks(&self) -> impl Iterator<Item = Remark> {
         let of = |shown: &Shown| {
             let Shown { problem, piece, .. } = shown;
             let table =
@@ -469,7 +479,7 @@ impl Report {
                 |(kind, name)| Subject::new(singular(kind), outer + name.trim_matches('"')),
             );
             let (message, help) = (problem.message.clone(), problem.help.clone().unwrap_or_default());
-            Warning::Model { part, message, help }
+            Remark { part, message, help }
         };
         self.shown.iter().map(of)
     }
@@ -575,10 +585,10 @@ mod tests {
         let warning =
             |start: usize| Problem::warning(Span { start, end: start + 4 }, "wrong").help("mend it");
         let report = Report::new(vec![warning(19), warning(start + 19)], &sources);
-        let found: Vec<_> = report.warnings().map(|warning| warning.diagnostic()).collect();
-        let parts: Vec<_> = found.iter().map(Diagnostic::part).collect();
+        let found: Vec<_> = report.remarks().collect();
+        let parts: Vec<_> = found.iter().map(|remark| remark.part.entry()).collect();
         assert_eq!(parts, [Some("a hinge"), Some("arm.a hinge")]);
-        assert_eq!((found[0].to_string().as_str(), found[0].remedy()), ("wrong; mend it", Some("mend it")));
+        assert_eq!((found[0].message.as_str(), found[0].help.as_str()), ("wrong", "mend it"));
     }
 
     #[test]

@@ -4,8 +4,8 @@ pub(crate) mod answers;
 pub(crate) mod damage;
 pub(crate) mod damaged_expressions;
 
-use lissom_core::ports::Ports;
-use lissom_core::registry::{Parameter, ParameterType};
+use lissom_mechanics::ports::Ports;
+use lissom_mechanics::registry::{Parameter, ParameterType};
 use lissom_model::registry::{ChoiceEntry, KindEntry, Registry};
 
 const fn kind(

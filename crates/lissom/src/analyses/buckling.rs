@@ -5,12 +5,12 @@ use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
 
+use crate::start::{Lowered, lower};
 use lissom_core::linearized::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
 use lissom_core::number::Written;
 use lissom_core::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
 use lissom_model::Report;
 use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
-use lissom_model::lower::{Lowered, lower};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

@@ -1,5 +1,6 @@
 //! States about which a model is linearised: the positions of the file, static equilibrium, an instant of a run.
 
+use crate::start::{Lowered, lower};
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::linearized::{LinearModel, steady};
@@ -9,7 +10,6 @@ use lissom_core::system::{State, System};
 use lissom_model::Document;
 use lissom_model::channels::Channel;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, lower};
 use lissom_motion::{rotation_part, translation_part};
 use serde::Deserialize;
 

@@ -1,10 +1,12 @@
 //! Inputs and outputs of a linear model, by the names of the model file.
 
+use crate::start::{Lowered, lower};
 use lissom_core::diagnostics::Diagnose;
+use lissom_core::linearized::LinearModel;
 use lissom_core::signals::{Argument, DiscreteValueId};
-use lissom_core::system::OutputDerivatives;
+use lissom_core::system::{OutputDerivatives, State};
 use lissom_model::Document;
-use lissom_model::lower::{Lowered, lower};
+use lissom_model::channels::Channel;
 
 use crate::analyses::modes::ModesError;
 use crate::analyses::operating_point::LinearizationPoint;
@@ -185,13 +187,28 @@ pub(crate) fn outputs(
             return Err(PortError::Output { name: name.clone(), known: listed(known.iter()) });
         }
         for (index, k, column) in meant {
-            let derivatives = reached.channels[*index].derivatives(reached.model);
+            let derivatives = derivatives_of(&reached.channels[*index], reached.model);
             let own = derivatives.and_then(|all| all.into_iter().nth(*k));
             let derivatives = own.ok_or_else(|| PortError::NotLinear(name.clone()))?;
             found.push(Observed { column: column.clone(), derivatives });
         }
     }
     Ok(found)
+}
+
+/// Derivatives of the components of a channel at the state of `model`, in its unknowns; none of accumulated numbers.
+fn derivatives_of(channel: &Channel, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
+    let state = State {
+        kinematics: model.kinematics().clone(),
+        multipliers: model.multipliers().to_vec(),
+        violations: Vec::new(),
+        algorithmic: Vec::new(),
+        time_remainder: 0.0,
+        position_remainders: Vec::new(),
+        accumulated: Vec::new(),
+    };
+    let found = channel.derivatives_at(model.system(), &state, model.length())?;
+    Some(found.into_iter().map(|output| model.along_departures(output)).collect())
 }
 
 /// An input without effect is probably a mistake.

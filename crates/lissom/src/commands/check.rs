@@ -4,12 +4,13 @@ use std::fmt::Write;
 
 use clap::Args;
 use lissom::path::varied_number;
+use lissom::start::{Lowered, lower};
 use lissom::{AnalysisWarning, Document, Model, Report, Session};
 use lissom_core::consistent::mobility::mobility;
 use lissom_core::consistent::{Mobility, Redundant};
 use lissom_core::errors::Warning;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, check_run, lower};
+use lissom_model::lower::check_run;
 use serde_json::{Value, json};
 
 use super::model_arguments::ModelArguments;

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use lissom::motion::MotionRecorder;
+use lissom::start::{lower, warnings_of};
 use lissom::view::Notice;
 use lissom::{Model, Override, Session};
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
 use super::outcome::{Exit, Failure, show_warnings};
@@ -35,7 +35,7 @@ impl InitialScene {
             show_warnings(&document);
         }
         let lowered = lower(&document)?;
-        let scene = Scene::of(&document, &lowered);
+        let scene = Scene::of(&document, &lowered.placed());
         let mut motion = Vec::new();
         let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
         // If the model starts from equilibrium, the initial state is the equilibrium.
@@ -48,7 +48,7 @@ impl InitialScene {
         };
         recorder.write_still(&start.kinematics).map_err(writing_failed)?;
         let title = document.title.clone().unwrap_or_default();
-        let warnings = document.warnings.warnings().chain(lowered.warnings);
+        let warnings = warnings_of(&document.warnings).chain(lowered.warnings);
         let warnings = warnings.map(|warning| Notice::of(&warning)).collect();
         Ok(Self { name: model.name().to_owned(), title, scene, motion, warnings })
     }

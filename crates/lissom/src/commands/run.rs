@@ -12,13 +12,14 @@ use clap::Args;
 use lissom::buckling::BucklingRequest;
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
+use lissom::start::{Assembly, Lowered, lower};
 use lissom::{
     Checkpoint, CheckpointEvery, CheckpointFile, Diagnose, Document, FolderError, Model, Override, Progress,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_core::number::{Written, duration, written};
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Assembly, Lowered, check_run, lower};
+use lissom_model::lower::check_run;
 use lissom_model::output::CurveRecord;
 use lissom_model::scene::Scene;
 
@@ -137,7 +138,7 @@ impl Run {
         let recorder = task
             .plots
             .then(|| MotionRecorder::new(&lowered, document.analysis.frames_per_second, io::sink()));
-        let scene = task.plots.then(|| Scene::of(&document, &lowered));
+        let scene = task.plots.then(|| Scene::of(&document, &lowered.placed()));
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = task.summary(&document, &lowered);
         let ready = Instant::now();

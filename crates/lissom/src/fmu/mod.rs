@@ -6,8 +6,8 @@ mod description;
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 
+use crate::start::lower;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
 use lissom_model::numbers::written_numbers;
 use lissom_model::{Document, Report};
 use serde::{Deserialize, Serialize};

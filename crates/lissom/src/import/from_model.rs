@@ -1,8 +1,8 @@
 //! Conversion of a model of rigid bodies to a robot description, if possible.
 
+use crate::start::lower;
 use lissom_model::Document;
 use lissom_model::document::{Attachment, Body, Component, NodeLocation, NodeReference};
-use lissom_model::lower::lower;
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};

@@ -1,7 +1,7 @@
 //! Header of a motion file.
 
+use crate::start::Lowered;
 use lissom_core::kinematics::{Layout, NodeMotion};
-use lissom_model::lower::Lowered;
 use serde::{Deserialize, Serialize};
 
 use super::{MAGIC, PREFIX, VERSION};

@@ -8,11 +8,11 @@ use std::io::{self, Write};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crate::start::Lowered;
 use lissom_core::elements::beam::line::BeamProbe;
 use lissom_core::kinematics::{Kinematics, NodeMotion};
 use lissom_core::simulation::Simulation;
 use lissom_core::system::State;
-use lissom_model::lower::Lowered;
 
 use super::header::{Header, POINTS};
 use crate::run::state_writer::StateWriter;

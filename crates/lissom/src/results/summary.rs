@@ -2,13 +2,13 @@
 
 use std::fmt::Display;
 
+use crate::start::{Assembly, Brought, Lowered, MovedPart, lower, warnings_of};
 use lissom_core::assembly::Gap;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::elements::Energy;
 use lissom_core::errors::InitialError;
 use lissom_core::scaling::Representative;
 use lissom_model::Document;
-use lissom_model::lower::{Assembly, Brought, Lowered, MovedPart, lower};
 use lissom_model::output::Column;
 use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
@@ -130,7 +130,7 @@ pub(crate) fn add_warnings<'w, W: Diagnose + 'w>(
 
 fn add_warnings_of_model(summary: &mut Summary, document: &Document) {
     let texts = document.warnings.problems().map(|problem| problem.message.clone());
-    append(summary, texts.zip(document.warnings.warnings().map(|warning| diagnostic::facts(&warning))));
+    append(summary, texts.zip(warnings_of(&document.warnings).map(|warning| diagnostic::facts(&warning))));
 }
 
 fn append(summary: &mut Summary, warnings: impl Iterator<Item = (String, Value)>) {

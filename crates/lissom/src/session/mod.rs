@@ -16,6 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use crate::start::Lowered;
 use lissom_core::errors::Warning;
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::instants;
@@ -25,7 +26,7 @@ use lissom_core::signals::event::Occurrence;
 use lissom_core::simulation::{InputError, Simulation};
 use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
-use lissom_model::lower::{Lowered, Plan};
+use lissom_model::lower::Plan;
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::sweep::{Accumulator, TimeWindow, WindowError, WindowedHistory};
 use lissom_model::{Document, Report, component_position};

@@ -3,12 +3,13 @@
 use lissom_core::diagnostics::Diagnose;
 use std::sync::Arc;
 
+use crate::start::{Lowered, lower};
 use lissom_core::errors::InitialError;
 use lissom_core::kinematics::Kinematics;
 use lissom_core::system::{State, System};
 use lissom_model::Document;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, Plan, lower};
+use lissom_model::lower::Plan;
 
 use super::{Session, SessionError};
 use crate::ids::{ForeignId, IdNames, InputId, Part};

@@ -1,9 +1,9 @@
 //! Dependence of the tangent's condition number on the step size, and on another value of the model, without scaling
 //! and with it: tables 2.1 and 2.2 of [Epple 2008], for any model.
 
+use crate::start::{Lowered, lower};
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
 use lissom_core::simulation::{ConditionMethod, Simulation};
-use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::LogFigure;
 
 use super::members::{Effort, in_parallel};

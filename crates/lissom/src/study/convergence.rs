@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::start::Lowered;
 use lissom_core::schemes::Scheme;
-use lissom_model::lower::Lowered;
 use lissom_model::output::LogFigure;
 
 use super::members::{Effort, in_parallel};

@@ -1,8 +1,8 @@
 //! Effects of scaling, augmented term and pivoting on the first step of a model.
 
+use crate::start::{Lowered, lower};
 use lissom_core::simulation::Simulation;
 use lissom_core::studies::factorization::{Case, factorization_study};
-use lissom_model::lower::{Lowered, lower};
 
 use super::{StudyError, csv_line};
 use crate::model::{Model, Override};

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use crate::start::{Lowered, lower};
 use lissom_model::component_position;
-use lissom_model::lower::{Lowered, Plan, Records, lower};
+use lissom_model::lower::{Plan, Records};
 use lissom_model::output::Record;
 
 use super::StudyError;

@@ -1,6 +1,6 @@
 //! Round-off of an output at tiny steps: its error after a few steps, and its noise from step to step.
 
-use lissom_model::lower::Lowered;
+use crate::start::Lowered;
 use lissom_model::output::LogFigure;
 
 use super::members::{Effort, in_parallel};

@@ -43,8 +43,8 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::start::lower;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
 use lissom_model::lower::registry::registry;
 use lissom_model::output::Column;
 use lissom_model::registry::Registry;

@@ -304,7 +304,7 @@ fn work_needs_a_motion_and_cycles_an_exponent() {
     ] {
         let error = model(&MODEL.replacen(from, to, 1))
             .document(&[])
-            .and_then(|document| lissom_model::lower::lower(&document).map(|_| ()));
+            .and_then(|document| lissom::start::lower(&document).map(|_| ()));
         let shown = error.unwrap_err().render(false);
         let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
         assert!(joined.contains(wanted), "{wanted}: {shown}");

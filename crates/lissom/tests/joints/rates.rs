@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
+use lissom::start::lower;
 use lissom::{Model, Record};
-use lissom_model::lower::lower;
 use lissom_motion::{Rotation, Vector3};
 
 use super::{EVERY_KIND, run, set};

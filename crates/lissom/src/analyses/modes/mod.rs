@@ -6,6 +6,7 @@ use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 
+use crate::start::lower;
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Kinematics;
 use lissom_core::linearized::{
@@ -14,7 +15,7 @@ use lissom_core::linearized::{
 };
 use lissom_model::Report;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{FrictionPoints, lower};
+use lissom_model::lower::FrictionPoints;
 use serde::Deserialize;
 
 use crate::analysis::{Analysis, AnalysisError, Origin};
@@ -252,7 +253,7 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     }
     report.about = about.name();
     if !document.contacts.is_empty() {
-        report.friction = lower(&document)?.friction_points(&document, &report.state);
+        report.friction = lower(&document)?.names.friction_points(&document, &report.state);
     }
     if let Completeness::Missing(missed) = report.completeness {
         return Err(ModesError::Missing(missed));

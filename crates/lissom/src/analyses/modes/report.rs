@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::io;
 
+use crate::start::lower;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::kinematics::Kinematics;
 use lissom_core::linearized::{Completeness, Mode, ModeKind, NodeShape};
 use lissom_core::number::{DIGITS, written};
 use lissom_model::Document;
 use lissom_model::files::FileError;
-use lissom_model::lower::lower;
 use lissom_model::output::quoted;
 use lissom_model::scene::Scene;
 use serde_json::{Value, json};
@@ -103,7 +103,7 @@ impl AnalysisReport for ModeReport {
         let unwritten = |error: io::Error| RunError::Write(error).diagnostic();
         let undrawn = |error: PictureError| error.diagnostic();
         let lowered = lower(document).map_err(|report| report.diagnostic())?;
-        let scene = Scene::of(document, &lowered);
+        let scene = Scene::of(document, &lowered.placed());
         folder.write_scene(&scene).map_err(unwritable)?;
         let file = folder.motion().map_err(unwritable)?;
         MotionRecorder::new(&lowered, None, file).write_still(&self.state).map_err(unwritten)?;

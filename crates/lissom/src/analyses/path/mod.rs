@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crate::start::{Lowered, lower};
 use lissom_core::errors::Warning;
 use lissom_core::path::{BranchChoice, CriticalPoint, EquilibriumPath, Family, PathError, PathSettings};
 use lissom_core::settings::Settings;
@@ -16,7 +17,6 @@ use lissom_core::simulation::equilibrium::at_rest;
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 use lissom_model::document::{AnalysisKind, OutputKind};
-use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::{Column, Record, Summary, Writer};
 use lissom_model::scene::Scene;
 use lissom_model::{Document, Report};

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::start::{Lowered, lower};
 use lissom_core::kinematics::{Kinematics, LOCKED};
 use lissom_core::path::Family;
 use lissom_core::system::{State, System};
 use lissom_model::lower::registry::registry;
-use lissom_model::lower::{Lowered, lower};
 use lissom_model::numbers::number_at;
 use lissom_model::{Document, ModelText, Problem, Report};
 

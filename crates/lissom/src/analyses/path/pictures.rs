@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
+use crate::start::Lowered;
 use lissom_core::kinematics::Kinematics;
 use lissom_model::Document;
-use lissom_model::lower::Lowered;
 use lissom_model::scene::{PathValues, Scene};
 
 use crate::motion::MotionRecorder;
@@ -24,7 +24,7 @@ impl PathPictures {
     pub(super) fn new(document: &Document, lowered: &Lowered) -> Self {
         let nowhere: Box<dyn Write + Send> = Box::new(io::sink());
         Self {
-            scene: Scene::of(document, lowered),
+            scene: Scene::of(document, &lowered.placed()),
             passed: PathValues::default(),
             scales_loads: true,
             recorder: MotionRecorder::new(lowered, None, nowhere),

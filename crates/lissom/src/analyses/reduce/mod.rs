@@ -8,13 +8,14 @@ use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::start::{Lowered, lower, lower_locked};
 use lissom_core::elements::superelement::ReducedMatrices;
 use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linearized::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_model::Document;
 use lissom_model::document::{Attachment, Component, NodeReference};
-use lissom_model::lower::{Lowered, Names, lower, lower_locked};
+use lissom_model::lower::Names;
 use serde::Deserialize;
 
 use crate::analyses::modes::ModesError;

@@ -10,10 +10,10 @@ use std::time::{Duration, Instant, SystemTime};
 
 use lissom::motion::MotionRecorder;
 use lissom::path::{PathEnd, PathSession, PathSessionError};
+use lissom::start::lower;
 use lissom::view::{Notice, Results};
 use lissom::{Document, FileError, Model, Override, Record, Session, Writer, summary};
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -243,7 +243,7 @@ fn results(
         }
     }
     let lowered = lower(&document).map_err(|report| wrong(&report))?;
-    let scene = Scene::of(&document, &lowered);
+    let scene = Scene::of(&document, &lowered.placed());
     let mut summary = summary::of_model(model.name(), overrides, &document, &lowered);
     let motion = Buffer::default();
     let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, motion.clone());

@@ -3,11 +3,11 @@
 
 use lissom_core::consistent::mobility::{has_loops, mobility};
 use lissom_core::errors::Warning;
-use lissom_mechanics::kinematics::Subject;
-use lissom_system::{State, System};
+use lissom_core::kinematics::Subject;
+use lissom_core::system::{State, System};
 
-use crate::outputs::channels::Channel;
-use crate::outputs::kinds::OutputKind;
+use lissom_model::channels::Channel;
+use lissom_model::document::OutputKind;
 
 /// Changes below this fraction of the largest multiplier added are round-off.
 const ROUND_OFF: f64 = 1e-6;

@@ -1,9 +1,10 @@
 //! Steps of changing size: chosen by their error, or given. References are runs with far smaller steps of one size.
 
+use lissom::start::{Lowered, lower};
 use lissom_core::simulation::Simulation;
 use lissom_core::system::State;
 use lissom_model::Document;
-use lissom_model::lower::{Lowered, lower, registry::registry};
+use lissom_model::lower::registry::registry;
 
 const PENDULUM: &str = r#"
 lissom = 1

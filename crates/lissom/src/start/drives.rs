@@ -1,49 +1,14 @@
 //! Whether prescribed motions begin where their joints are, and go on without jumps of speed.
 
 use lissom_core::errors::Warning;
-use lissom_core::linearized::{LinearModel, steady};
-use lissom_mechanics::kinematics::{Quantity, Subject};
-use lissom_system::settings::Settings;
-use lissom_system::{Drive, State, System};
+use lissom_core::kinematics::{Quantity, Subject};
+use lissom_core::system::{Drive, State, System};
 
-use crate::document::{AnalysisKind, Component, Document};
-use crate::text::report::Problem;
+use lissom_model::Problem;
+use lissom_model::document::{AnalysisKind, Component, Document};
 
 /// Difference at the start that is round-off of given numbers [m, rad].
 const SAME_PLACE: f64 = 1e-6;
-
-/// A rotation whose twists change by more, relative to the square of its rate, is not steady.
-const STEADY: f64 = 1e-5;
-
-/// Moves positions to where the model keeps turning with the velocities that it has.
-pub(super) fn steady_rotation(
-    document: &Document,
-    system: &System,
-    state: &State,
-    settings: &Settings,
-) -> Result<State, Problem> {
-    let refused = |words: String| {
-        let help = "give all parts the angular velocity of one rotation by `[initial]`, without gravity or loads across \
-                    its axis, or leave out `steady_rotation`";
-        Problem::error(document.analysis.span, words).help(help)
-    };
-    let mut turning = steady(system, state, settings.solver).map_err(|error| refused(error.to_string()))?;
-    let model =
-        LinearModel::of(system, &turning, settings.solver).map_err(|error| refused(error.to_string()))?;
-    // Loads at rest in space can be balanced at one angle, and are not at another.
-    let later = model.turned().map_err(|error| refused(error.to_string()))?;
-    let unsteadiness = model.unsteadiness().max(later.unsteadiness());
-    if unsteadiness > STEADY {
-        return Err(refused(format!(
-            "the velocities at the start are no steady rotation: in the axes of the nodes they change by {unsteadiness:.1e} \
-             of their squares"
-        )));
-    }
-    // A run finds its own.
-    turning.multipliers.fill(0.0);
-    turning.position_remainders.clone_from(&state.position_remainders);
-    Ok(turning)
-}
 
 /// Distance from a breakpoint at which functions are evaluated, relative to the whole run.
 const ASIDE: f64 = 1e-9;

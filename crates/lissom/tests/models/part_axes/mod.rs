@@ -6,11 +6,12 @@ mod joint_axes;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use lissom::start::{Lowered, lower};
 use lissom_core::ports::Ports;
 use lissom_core::registry::ParameterType;
 use lissom_core::simulation::Simulation;
 use lissom_model::document::OutputKind;
-use lissom_model::lower::{Lowered, lower, registry::registry};
+use lissom_model::lower::registry::registry;
 use lissom_model::registry::KindEntry;
 use lissom_model::{EntryAxes, Library, ModelText, model_axes};
 use lissom_motion::{Motion, Rotation, Vector3};

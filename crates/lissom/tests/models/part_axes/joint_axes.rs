@@ -6,7 +6,7 @@ use lissom_core::ports::Ports;
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use toml::{Table, Value};
 
-use crate::part_axes::{End, SCENES, STEPS, entries, kind_of, near, plain, registered, tables_of};
+use crate::models::part_axes::{End, SCENES, STEPS, entries, kind_of, near, plain, registered, tables_of};
 
 /// Kinds whose frame on the tip is at the position of the tip's node.
 const SPANNING: [&str; 3] = ["rolling", "swing_arm", "wheel_on_rail"];

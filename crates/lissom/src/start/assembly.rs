@@ -1,13 +1,13 @@
 //! Corrects approximate positions of parts until all joints close, and reports the displacements.
 
 use lissom_core::assembly::{AssemblyError, Gap, Request, assemble};
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_core::system::System;
 use lissom_motion::Motion;
-use lissom_system::System;
 
-use super::names::Names;
-use crate::document::{AssemblyRequest, Document};
-use crate::text::report::Problem;
+use lissom_model::Problem;
+use lissom_model::document::{AssemblyRequest, Document};
+use lissom_model::lower::Names;
 
 /// Displacements below this fraction of the model's size, and turns below this angle [rad], are round-off.
 const NOTHING: f64 = 1e-12;
@@ -68,7 +68,7 @@ impl Assembly {
         let moved = |part: &MovedPart| {
             let MovedPart { part, distance, turn } = part;
             let (distance, turn) =
-                (lissom_mechanics::number::Written(*distance), lissom_mechanics::number::Written(*turn));
+                (lissom_core::number::Written(*distance), lissom_core::number::Written(*turn));
             if *turn > NOTHING {
                 format!("`{part}` by {distance:.3e} m and {turn:.3e} rad")
             } else {

@@ -1,8 +1,9 @@
 //! Multipliers keep second order with steps that change by 1.2 every time, in fast rotation.
 
+use lissom::start::{Lowered, lower};
 use lissom_core::simulation::Simulation;
 use lissom_model::Document;
-use lissom_model::lower::{Lowered, lower, registry::registry};
+use lissom_model::lower::registry::registry;
 
 /// The heavy top of Brüls, Cardona and Arnold [2012].
 const TOP: &str = r#"

@@ -1,10 +1,11 @@
 //! The properties of the energy-decaying scheme, on a rigid and flexible spatial model.
 
+use lissom::start::lower;
 use lissom_core::simulation::Simulation;
 use lissom_model::Document;
-use lissom_model::lower::{lower, registry::registry};
+use lissom_model::lower::registry::registry;
 
-const MODEL: &str = include_str!("../../../examples/energy.toml");
+const MODEL: &str = include_str!("../../../../examples/energy.toml");
 
 /// Every joint, spring and order of beam in one mechanism.
 const EVERY_KIND: &str = include_str!("every_kind.toml");

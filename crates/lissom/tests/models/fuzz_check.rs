@@ -1,20 +1,19 @@
 //! Whatever is damaged in a model, `check` answers: the model is wrong, or it has so many degrees of freedom.
 
-use crate::support::damage;
-
+use lissom::start::lower;
 use lissom_core::consistent::mobility::mobility;
 use lissom_model::Document;
-use lissom_model::lower::{lower, registry::registry};
+use lissom_model::lower::registry::registry;
 use proptest::prelude::*;
 
-use damage::{Damage, STRANGERS, tokens};
+use super::damage::{Damage, STRANGERS, tokens};
 
 const EXAMPLES: [&str; 5] = [
-    include_str!("../../../examples/pendulum.toml"),
-    include_str!("../../../examples/top.toml"),
-    include_str!("../../../examples/tip-crank.toml"),
-    include_str!("../../../examples/four-bar.toml"),
-    include_str!("../../../examples/energy.toml"),
+    include_str!("../../../../examples/pendulum.toml"),
+    include_str!("../../../../examples/top.toml"),
+    include_str!("../../../../examples/tip-crank.toml"),
+    include_str!("../../../../examples/four-bar.toml"),
+    include_str!("../../../../examples/energy.toml"),
 ];
 
 /// What may be in a model beside strangers that no model has.

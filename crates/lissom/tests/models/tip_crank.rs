@@ -1,12 +1,13 @@
 //! The source's main problem, from its model file: lateral buckling of a beam lifted by a tip crank.
 
+use lissom::start::lower;
 use lissom_core::simulation::Simulation;
 use lissom_model::Document;
-use lissom_model::lower::{lower, registry::registry};
+use lissom_model::lower::registry::registry;
 
-const TIP_CRANK: &str = include_str!("../../../examples/tip-crank.toml");
+const TIP_CRANK: &str = include_str!("../../../../examples/tip-crank.toml");
 
-const MEASURED: &str = include_str!("../../../docs/measured.md");
+const MEASURED: &str = include_str!("../../../../docs/measured.md");
 
 /// The figure is in the book as it was measured.
 fn assert_reported(figure: &str) {

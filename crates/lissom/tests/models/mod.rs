@@ -1,0 +1,10 @@
+//! Model files from their text to the motion.
+
+#[path = "../../../lissom-model/tests/support/damage.rs"]
+mod damage;
+mod energy;
+mod fuzz_check;
+mod multiplier_order;
+mod part_axes;
+mod step_control;
+mod tip_crank;
