@@ -395,17 +395,17 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 404;
+    const MAX_CONSTANTS: usize = 408;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 10] = [
         ("lissom-motion", 3030),
         ("lissom-solver", 7000),
-        ("lissom-mechanics", 31_970),
+        ("lissom-mechanics", 32_530),
         ("lissom-system", 5210),
         ("lissom-core", 30_340),
         ("lissom-drawing", 1380),
-        ("lissom-model", 31_910),
+        ("lissom-model", 31_560),
         ("lissom", 29_030),
         ("lissom-fmi", 660),
         ("lissom-python", 2170),

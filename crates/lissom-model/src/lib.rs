@@ -20,7 +20,7 @@ mod reference;
 pub mod registry;
 pub mod scene;
 pub mod sections;
-mod solids;
+mod surface;
 pub mod sweep;
 mod text;
 

@@ -24,6 +24,17 @@ pub struct Compliance {
 }
 
 impl Compliance {
+    /// Of two balls, or of a ball on a plane, by the theory of Hertz: from the sum of the curvatures [1/m], and Young's modulus [Pa]
+    /// and Poisson's ratio of both materials.
+    ///
+    /// ```text
+    /// k = 4/3 E √R,      1/E = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂,      1/R = 1/R₁ + 1/R₂
+    /// ```
+    pub fn hertz(curvature: f64, materials: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        let compliance: f64 = materials.into_iter().map(|[young, nu]| (1.0 - nu * nu) / young).sum();
+        Self { stiffness: 4.0 / 3.0 / compliance / f64::sqrt(curvature), exponent: 1.5 }
+    }
+
     /// Force at a penetration and its rate with the factor a, and its derivatives with respect to both.
     pub fn force(&self, depth: f64, rate: f64, dissipation: f64) -> [f64; 3] {
         let factor = 1.0 + dissipation * rate;

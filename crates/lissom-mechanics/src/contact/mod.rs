@@ -7,6 +7,7 @@ pub mod gap;
 pub mod hollow;
 pub mod pairs;
 pub mod profile;
+pub mod solids;
 pub mod surfaces;
 pub mod wheel_on_plane;
 pub mod wheel_on_rail;

@@ -25,7 +25,10 @@ use nalgebra::SMatrix;
 
 use super::contact_resistance::ContactResistance;
 use super::force_law::Response;
-use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
+use super::{
+    Capabilities, Contribution, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns,
+    add_block,
+};
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 use crate::contact::hollow::Hollow;
@@ -92,6 +95,13 @@ pub(super) struct Share {
 }
 
 impl ContactFriction {
+    /// The same with bristles that are states of the contribution, by this name and a number.
+    #[must_use]
+    pub fn with_bristles(self, name: &str, contribution: &mut Contribution) -> Self {
+        let state = |k: usize| contribution.add_state(format!("{name} {k}"), 0.0, self.deflection);
+        Self { bristles: (1..=3).map(state).collect(), ..self }
+    }
+
     fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {
         let length = bristles.norm();
         let beyond = (length / self.deflection - ELASTIC_SHARE) / (1.0 - ELASTIC_SHARE);

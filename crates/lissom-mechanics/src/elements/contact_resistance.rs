@@ -9,7 +9,13 @@
 
 use lissom_motion::{Matrix3, Vector3};
 
+use super::Contribution;
 use super::contact::ContactFriction;
+
+/// Rotation before the moments against rolling and spinning are full [rad].
+const YIELD_ANGLE: f64 = 1e-4;
+/// Angular velocity above which their damping saturates [rad/s].
+const YIELD_RATE: f64 = 0.1;
 
 /// Resistance to rolling and spinning.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +37,22 @@ pub(super) struct Moment {
 }
 
 impl ContactResistance {
+    /// With these lever arms [m]; none where both are zero. Its bristles are states of the contribution.
+    pub fn new([rolling, spinning]: [f64; 2], name: &str, contribution: &mut Contribution) -> Option<Self> {
+        if rolling == 0.0 && spinning == 0.0 {
+            return None;
+        }
+        let bristles = ContactFriction {
+            bristles: Vec::new(),
+            sliding: 1.0,
+            at_rest: 1.0,
+            stribeck: YIELD_RATE,
+            deflection: YIELD_ANGLE,
+        };
+        let bristles = bristles.with_bristles(&format!("{name}, rotation"), contribution);
+        Some(Self { bristles, rolling, spinning })
+    }
+
     pub(super) fn moment(&self, deflection: &Vector3, spin: &Vector3, normal: &Vector3) -> Moment {
         // No direction is left out.
         let share = self.bristles.share(deflection, spin, &Vector3::zeros());

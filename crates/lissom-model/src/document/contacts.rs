@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lissom_mechanics::contact::compliance::RestitutionLaw;
+use lissom_mechanics::contact::compliance::{MIN_RESTITUTION, RestitutionLaw};
+use lissom_mechanics::contact::solids::PlacedSolid;
 use lissom_motion::Vector3;
 
 use super::beam_contacts::{self, BeamSides};
@@ -16,13 +17,9 @@ use crate::format::keys::{Key, Shape, optional, required};
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
 use crate::registry::Registry;
-use crate::solids::PlacedSolid;
-use crate::solids::surface::Surface;
+use crate::surface::Surface;
 use crate::text::Value;
 use crate::text::report::Located;
-
-/// Smallest restitution of contacts that are not rigid.
-const LEAST_RESTITUTION: f64 = 0.01;
 
 /// Solids that are fixed in space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -354,7 +351,7 @@ fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]
 fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
     let context = reader.context;
     if let Some(node) = reader.node("restitution")
-        && reader.number("restitution")?.value < LEAST_RESTITUTION
+        && reader.number("restitution")?.value < MIN_RESTITUTION
     {
         let message = format!("`restitution` of {} is below 0.01", reader.what);
         return context.fail(node.span, message, "set `rigid = true`, whose impacts may be without rebound");

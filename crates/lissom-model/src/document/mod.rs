@@ -32,6 +32,7 @@ mod unloaded;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use lissom_mechanics::contact::solids::PlacedSolid;
 use lissom_mechanics::elements::superelement::ReducedMatrices;
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::Parameters;
@@ -42,8 +43,7 @@ use crate::expression::{Expression, Formula};
 use crate::line::Line;
 use crate::sections::Outline;
 use crate::sections::{Isotropic, SectionProperties};
-use crate::solids::PlacedSolid;
-use crate::solids::surface::Surface;
+use crate::surface::Surface;
 use crate::text::report::{Located, Problem, Report, Sources, Span};
 
 pub use crate::format::top_level::VERSION;

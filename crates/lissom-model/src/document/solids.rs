@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use lissom_mechanics::contact::curves::Spline;
+use lissom_mechanics::contact::solids::{Form, PlacedSolid, Solid, Triangles};
 use lissom_mechanics::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use crate::files::library::joined;
 use crate::format::keys::{Key, Shape};
 use crate::reading::reader::Reader;
-use crate::solids::surface::Surface;
-use crate::solids::{Form, PlacedSolid, Solid};
+use crate::surface::Surface;
 use crate::text::report::Problem;
 use crate::text::{Node, Value};
 
@@ -139,7 +139,9 @@ fn drawn(
         let scale = vector("scale", Vector3::repeat(1.0))?;
         let surface = file(own, own.node("file")?, "file")?;
         let scaled = surface.map_or_else(Surface::default, |own| own.moved(&Motion::IDENTITY, &scale));
-        let placed = PlacedSolid { form: Form::Mesh(Arc::new(scaled.clone())), frame };
+        let points = scaled.points.iter().map(|point| Vector3::from(point.map(f64::from))).collect();
+        let form = Form::Mesh(Arc::new(Triangles { points, triangles: scaled.triangles.clone() }));
+        let placed = PlacedSolid { form, frame };
         return Some((scaled.moved(&frame, &Vector3::repeat(1.0)), placed));
     }
     let other = match kind {

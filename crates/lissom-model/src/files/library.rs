@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::files;
 use crate::files::matrix_market::full_matrix;
 use crate::files::npz;
-use crate::solids::surface::Surface;
+use crate::surface::Surface;
 
 /// Why there is no text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use lissom_mechanics::contact::compliance::Compliance;
 use lissom_mechanics::contact::pairs::PointOnSurface;
+use lissom_mechanics::contact::solids::{Form, spacing_of_rounds};
+use lissom_mechanics::contact::surfaces::Rod;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::elements::Element;
 use lissom_mechanics::elements::beam::line::BeamLine;
 use lissom_mechanics::elements::beam::section::Section;
 use lissom_mechanics::elements::beam_contact::BeamContact;
-use lissom_mechanics::elements::contact::ContactFriction;
 use lissom_mechanics::elements::nearest_contact::{CarriedCurve, CarriedPoint, NearestContact};
 use lissom_mechanics::joints::centerline::Centerline;
 use lissom_mechanics::kinematics::{CarriedFrame, MAX_NODES, NodeId};
@@ -17,20 +18,17 @@ use lissom_mechanics::number::written;
 use lissom_motion::Vector3;
 use lissom_system::Builder;
 
-use super::contacts::{solids, surface, words};
+use super::contacts::{friction, solids};
 use super::names::Names;
 use crate::document::{BeamSides, ContactEntry, Document, Restitution, Touching};
 use crate::outputs::contact_point::ContactPoint;
 use crate::sections::Outline;
-use crate::solids::{Form, PlacedSolid, Solid};
 use crate::text::report::Problem;
 
 /// Parts of an interval between points whose chords make up its length.
 const CHORDS: usize = 8;
 /// Pairs of intervals of two beams that may touch.
 const MAX_PAIRS: usize = 10_000;
-/// Points may be this far apart over the radius of the solid: 30°.
-const MAX_ANGLE: f64 = 0.5;
 
 /// A contact of a beam with another part.
 struct OfBeam<'a> {
@@ -127,15 +125,16 @@ impl OfBeam<'_> {
         let apart = lengths.iter().copied().fold(0.0, f64::max);
         let mut all = Vec::new();
         for solid in solids(self.document, &self.entry.between[0].value) {
-            self.check_distance(solid, apart)?;
-            let surface = surface(&solid.form).ok().flatten().ok_or_else(|| self.no_pair(&solid.form))?;
+            let found = (solid.form.spacing(self.radius), solid.form.surface(0.0));
+            let (Some(most), Ok(Some(surface))) = found else { return Err(self.no_pair(&solid.form)) };
+            self.check_spacing((apart, most), solid.form.kind().words())?;
             for k in 0..=count {
                 let before = if k > 0 { lengths[k - 1] } else { 0.0 };
                 let share = 0.5 * (before + lengths.get(k).copied().unwrap_or(0.0));
                 let compliance = Compliance { stiffness: stiffness * share, exponent: self.entry.exponent };
                 let mut contribution = Contribution::to(builder.model());
                 let name = format!("{} {}", self.entry.name.value, all.len() + 1);
-                let friction = self.friction(&name, &mut contribution);
+                let friction = friction(self.entry, &name, &mut contribution);
                 let pair = Arc::new(PointOnSurface { rounding: self.radius, surface: surface.clone() });
                 let contact = BeamContact::new(
                     CarriedFrame { node: base, offset: solid.frame },
@@ -200,13 +199,14 @@ impl OfBeam<'_> {
         let mut all = Vec::new();
         for solid in solids(self.document, &self.entry.between[0].value) {
             let point = |height: f64| (base, solid.frame.transform_point(&Vector3::new(0.0, 0.0, height)));
-            let (curve, radius) = match solid.form {
-                Form::Solid(Solid::Sphere(radius)) => (CarriedCurve::of_point(point(0.0)), radius),
-                Form::Solid(Solid::Capsule { radius, length, .. }) => {
-                    (CarriedCurve::between([-0.5, 0.5].map(|share| point(share * length))), radius)
+            let (curve, radius) = match solid.form.rod() {
+                Some(Rod { half_length, radius }) if half_length > 0.0 => {
+                    (CarriedCurve::between([-half_length, half_length].map(point)), radius)
                 }
-                _ => {
-                    let message = format!("`stiffness` of a beam on {} is not available", words(&solid.form));
+                Some(Rod { radius, .. }) => (CarriedCurve::of_point(point(0.0)), radius),
+                None => {
+                    let message =
+                        format!("`stiffness` of a beam on {} is not available", solid.form.kind().words());
                     let help =
                         "give `stiffness_per_length` instead; `stiffness` is for spheres, capsules and beams";
                     return Err(self.fault(&message, help));
@@ -234,7 +234,7 @@ impl OfBeam<'_> {
                 let (centerline, nodes) = self.smooth_line(self.beam(), line)?;
                 let count = points * line.elements.len();
                 let apart = centerline.length() / count as f64;
-                self.check_spacing((apart, MAX_ANGLE * (self.radius + base.1)), "a beam")?;
+                self.check_spacing((apart, spacing_of_rounds(self.radius + base.1)), "a beam")?;
                 let on = |k: usize| CarriedCurve::on_line(&centerline, k as f64 * apart, &nodes);
                 let tips: Vec<_> = (0..=count).map(on).collect();
                 let share = |k: usize| if k == 0 || k == count { 0.5 * apart } else { apart };
@@ -269,19 +269,6 @@ impl OfBeam<'_> {
         Ok(())
     }
 
-    fn friction(&self, name: &str, contribution: &mut Contribution) -> Option<ContactFriction> {
-        let entry = self.entry;
-        entry.friction.map(|[sliding, at_rest]| ContactFriction {
-            bristles: (1..=3)
-                .map(|k| contribution.add_state(format!("{name}, friction {k}"), 0.0, entry.deflection))
-                .collect(),
-            sliding,
-            at_rest,
-            stribeck: entry.stribeck,
-            deflection: entry.deflection,
-        })
-    }
-
     fn fault(&self, message: &str, help: &str) -> Problem {
         let name = &self.entry.name.value;
         Problem::error(self.entry.name.span, format!("contact `{name}`: {message}")).help(help)
@@ -296,30 +283,12 @@ impl OfBeam<'_> {
         Ok(())
     }
 
-    /// A solid between two points of a beam would not be noticed.
-    fn check_distance(&self, solid: &PlacedSolid, apart: f64) -> Result<(), Problem> {
-        let most = match solid.form {
-            Form::HalfSpace => return Ok(()),
-            Form::Solid(Solid::Sphere(radius) | Solid::Capsule { radius, .. }) => {
-                MAX_ANGLE * (radius + self.radius)
-            }
-            Form::Solid(Solid::Tube { outer, inner, length, .. }) => {
-                let round = if inner > 0.0 { inner } else { outer + self.radius };
-                (MAX_ANGLE * round).min(0.5 * length + self.radius)
-            }
-            Form::Solid(Solid::Box(sides)) => {
-                0.5 * sides.into_iter().fold(f64::INFINITY, f64::min) + self.radius
-            }
-            _ => return Err(self.no_pair(&solid.form)),
-        };
-        self.check_spacing((apart, most), words(&solid.form))
-    }
-
     fn no_pair(&self, form: &Form) -> Problem {
-        let message = format!("a beam on {} is not available", words(form));
+        let message = format!("a beam on {} is not available", form.kind().words());
         self.fault(&message, "use planes, boxes, cylinders, tubes, spheres and capsules that have its shape")
     }
 
+    /// A solid between two points of a beam would not be noticed.
     fn check_spacing(&self, (apart, most): (f64, f64), what: &str) -> Result<(), Problem> {
         if apart <= most {
             return Ok(());

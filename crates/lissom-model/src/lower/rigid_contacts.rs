@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use lissom_mechanics::elements::rigid_friction::{ContactGuard, Guard};
 use lissom_mechanics::joints::rigid_contact::{RigidContact, RigidLaw};
-use lissom_mechanics::kinematics::{CarriedFrame, Subject};
+use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::{Direction, Event};
 use lissom_mechanics::signals::{Argument, Signal};
 use lissom_system::Builder;
 
-use super::contacts::{SolidPair, solid_pairs};
+use super::contacts::points_of_solids;
 use super::names::Names;
 use super::straight_line::Line;
 use crate::document::{ContactEntry, Document, RigidEntry};
@@ -32,17 +32,12 @@ pub(super) fn add(
     let law =
         RigidLaw { restitution: law.restitution, friction: law.friction, rest_velocity: law.rest_velocity };
     let mut all: Vec<RigidPoint> = Vec::new();
-    for SolidPair { nodes, meetings, .. } in solid_pairs(document, entry, names)? {
-        for meeting in meetings {
-            let order = if meeting.is_in_order { [0, 1] } else { [1, 0] };
-            let frames =
-                [0, 1].map(|side| CarriedFrame { node: nodes[order[side]], offset: meeting.frames[side] });
-            let own = if all.is_empty() { name.clone() } else { format!("{name} {}", all.len() + 1) };
-            let contact = builder.add_rigid_contact(&own, frames, meeting.pair, law);
-            guards(&contact, builder)
-                .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
-            all.push(RigidPoint { contact, sign: if meeting.is_in_order { 1.0 } else { -1.0 } });
-        }
+    for point in points_of_solids(document, entry, names)? {
+        let own = if all.is_empty() { name.clone() } else { format!("{name} {}", all.len() + 1) };
+        let contact = builder.add_rigid_contact(&own, point.frames, point.pair, law);
+        guards(&contact, builder)
+            .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
+        all.push(RigidPoint { contact, sign: point.sign });
     }
     Ok(all)
 }

@@ -33,7 +33,7 @@ pub use shapes::InertiaBox;
 pub use solids::{Form, Solid, Tone};
 pub use symbols::{Rod, Symbol};
 
-pub use crate::solids::surface::Surface;
+pub use crate::surface::Surface;
 
 /// Version of the format.
 const VERSION: usize = 2;

@@ -1,5 +1,6 @@
 //! Bodies, point masses and beams as they look.
 
+use lissom_mechanics::contact::solids::{Form, PlacedSolid, Solid};
 use lissom_mechanics::kinematics::{GROUND, NodeId};
 use lissom_motion::{Matrix3, Motion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -8,8 +9,7 @@ use super::places::Places;
 use super::shapes::InertiaBox;
 use crate::document::Document;
 use crate::sections::Outline;
-use crate::solids::surface::Surface;
-use crate::solids::{Form, PlacedSolid, Solid};
+use crate::surface::Surface;
 
 /// Side of a drawn plane over the diagonal of the model.
 const LARGER: f64 = 1.6;

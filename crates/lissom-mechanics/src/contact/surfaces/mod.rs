@@ -59,38 +59,15 @@ pub trait Surface: std::fmt::Debug + Send + Sync {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::curves::Spline;
+    use crate::contact::solids::FormKind;
+    use crate::contact::solids::samples::sample;
 
     /// Normals and curvatures are the derivatives of distances, and the foot of every point outside is on the surface.
     #[test]
     fn normals_and_curvatures_are_derivatives_of_distances() {
-        let corners = [[-0.5, -0.4, -0.3], [0.6, -0.4, -0.3], [0.1, 0.7, -0.3], [0.0, 0.0, 0.6]];
-        let hull = Mesh::hull(&corners.map(Vector3::from)).expect("a tetrahedron");
-        let polygon = Polygon::new(&[[-0.5, -0.4], [0.6, -0.5], [0.1, 0.1], [0.0, 0.7]]).expect("valid");
-        let egg: Vec<[f64; 2]> = (0..60)
-            .map(|k| {
-                let (s, c) = (std::f64::consts::TAU * f64::from(k) / 60.0).sin_cos();
-                [0.6 * c, 0.4 * s + 0.1 * c * c]
-            })
-            .collect();
-        let outline = Outline::new(Spline::new(&egg).expect("valid"));
-        let heights =
-            (0..13).map(|j| (0..11).map(|i| 0.03 * (f64::from(i) * 0.7 + f64::from(j)).sin()).collect());
-        let field = HeightField::new(heights.collect(), [3.0, 3.0]).expect("valid");
-        let surfaces: [&dyn Surface; 10] = [
-            &HalfSpace,
-            &Rod { half_length: 0.0, radius: 0.4 },
-            &Rod { half_length: 0.7, radius: 0.4 },
-            &Cuboid { half_sides: [0.3, 0.5, 0.8] },
-            &Ring { radii: [0.0, 0.6], half_length: 0.4 },
-            &Ring { radii: [0.3, 0.6], half_length: 0.4 },
-            &hull,
-            &polygon,
-            &outline,
-            &field,
-        ];
         let step = 1e-6;
-        for (index, surface) in surfaces.iter().enumerate() {
+        for &kind in FormKind::ALL {
+            let Ok(Some(surface)) = sample(kind).surface(0.0) else { continue };
             for k in 0..400 {
                 let share = |factor: f64| (f64::from(k) * factor).fract() * 2.4 - 1.2;
                 let y = Vector3::new(share(0.754_877), share(0.569_840), share(0.430_159));
@@ -108,17 +85,17 @@ mod tests {
                     }
                     let allowed = 1e-8 * (1.0 + at.curvature.norm_squared());
                     let slope = (after.value - before.value) / (2.0 * step);
-                    assert!((slope - at.normal[axis]).abs() < allowed, "{index} {y:?} {slope} {at:?}");
+                    assert!((slope - at.normal[axis]).abs() < allowed, "{kind:?} {y:?} {slope} {at:?}");
                     let turn = (after.normal - before.normal) / (2.0 * step);
                     assert!(
                         (turn - at.curvature.column(axis)).norm() < 100.0 * allowed,
-                        "{index} {y:?} {turn} {at:?}"
+                        "{kind:?} {y:?} {turn} {at:?}"
                     );
                 }
-                assert!((at.normal.norm() - 1.0).abs() < 1e-12, "{index} {at:?}");
+                assert!((at.normal.norm() - 1.0).abs() < 1e-12, "{kind:?} {at:?}");
                 if at.value > 0.0 {
                     let foot = surface.distance(&(y - at.value * at.normal));
-                    assert!(foot.value.abs() < 1e-12, "{index} {y:?} {foot:?}");
+                    assert!(foot.value.abs() < 1e-12, "{kind:?} {y:?} {foot:?}");
                 }
             }
         }

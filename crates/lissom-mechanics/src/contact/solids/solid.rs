@@ -1,17 +1,10 @@
 //! Volume and inertia of homogeneous solids.
 
-pub(crate) mod surface;
-
-use std::sync::Arc;
-
-use lissom_mechanics::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
-use lissom_motion::{Matrix3, Motion, Vector3};
-
-use surface::Surface;
+use lissom_motion::{Matrix3, Vector3};
 
 /// A homogeneous solid about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Solid {
+pub enum Solid {
     /// Sides along the axes [m].
     Box([f64; 3]),
     /// A circular cylinder, hollow where the inner radius is not zero [m].
@@ -40,36 +33,9 @@ pub(crate) enum Solid {
     Ellipsoid([f64; 3]),
 }
 
-/// What touches.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Form {
-    /// A solid about its centre.
-    Solid(Solid),
-    /// Everything below the plane z = 0.
-    HalfSpace,
-    /// A prism along the third axis with a smooth outline.
-    Outline(Arc<Outline>),
-    /// A prism along the third axis with straight sides.
-    Polygon(Arc<Polygon>),
-    /// A convex polyhedron.
-    Hull(Arc<Mesh>),
-    /// Everything below a surface.
-    HeightField(Arc<HeightField>),
-    /// Triangles of a file, which may enclose a solid.
-    Mesh(Arc<Surface>),
-}
-
-/// A solid at its position in a part.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct PlacedSolid {
-    pub(crate) form: Form,
-    /// Its axes in those of the part; the third is the axis of a round one and the normal of a plane.
-    pub(crate) frame: Motion,
-}
-
 impl Solid {
-    /// Whether its lengths make sense.
-    pub(crate) fn is_solid(&self) -> bool {
+    /// Whether its lengths are valid.
+    pub fn is_solid(&self) -> bool {
         match *self {
             Self::Box(sides) => sides.iter().all(|side| *side > 0.0),
             Self::Tube { outer, inner, length, .. } => inner >= 0.0 && outer > inner && length > 0.0,
@@ -79,17 +45,8 @@ impl Solid {
         }
     }
 
-    /// Whether it contains the line between any two of its points, and the distance from it is known.
-    pub(crate) fn has_convex_surface(&self) -> bool {
-        match self {
-            Self::Tube { inner, .. } => *inner == 0.0,
-            Self::Ellipsoid(_) => false,
-            Self::Box(_) | Self::Sphere(_) | Self::Capsule { .. } => true,
-        }
-    }
-
     /// Volume [m³].
-    pub(crate) fn volume(&self) -> f64 {
+    pub fn volume(&self) -> f64 {
         match *self {
             Self::Box([a, b, c]) => a * b * c,
             Self::Tube { outer, inner, length, .. } => {
@@ -104,7 +61,7 @@ impl Solid {
     }
 
     /// Inertia about the centre per mass [m²].
-    pub(crate) fn inertia(&self) -> Matrix3 {
+    pub fn inertia(&self) -> Matrix3 {
         let moments = match *self {
             Self::Box([a, b, c]) => Vector3::new(b * b + c * c, a * a + c * c, a * a + b * b) / 12.0,
             Self::Tube { outer, inner, length, axis } => {

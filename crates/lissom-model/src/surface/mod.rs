@@ -6,11 +6,10 @@ mod stl;
 use std::collections::HashMap;
 
 use lissom_mechanics::contact::curves::Curve;
+use lissom_mechanics::contact::solids::{Form, Solid};
 use lissom_motion::{Motion, Vector3};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
-
-use crate::solids::{Form, Solid};
 
 /// The corners of a triangle.
 type Triangle = [[f32; 3]; 3];
@@ -120,7 +119,10 @@ impl Surface {
                 let of = |a: u32| [[a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]];
                 Self { points, triangles: cells.flat_map(of).collect() }
             }
-            Form::Mesh(surface) => Self::clone(surface),
+            Form::Mesh(own) => Self {
+                points: own.points.iter().map(|point| point.cast::<f32>().into()).collect(),
+                triangles: own.triangles.clone(),
+            },
         }
     }
 
