@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use lissom::core::contact::solids::{FormKind, parts_between};
 use lissom::core::diagnostics::{Entry, Severity};
 use lissom::{FileError, catalogue};
 use lissom_model::lower::registry::registry;
@@ -18,8 +19,18 @@ const RUST_NOTE: &str = "// Made by `cargo xtask reference` of the program's own
 /// All files with their contents.
 fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
     let mut made = vec![(root.join("docs/reference.md"), reference_text())];
-    let warnings = root.join("docs/warnings.md");
-    made.push((warnings.clone(), with_tables(&files::read_text(&warnings).unwrap_or_default())));
+    let chapters = [
+        (
+            "docs/warnings.md",
+            vec![catalogued("warnings", Severity::Warning), catalogued("failures", Severity::Failure)],
+        ),
+        ("docs/contacts.md", vec![pairs_of_solids()]),
+    ];
+    for (name, tables) in chapters {
+        let path = root.join(name);
+        let text = tables.iter().fold(files::read_text(&path).unwrap_or_default(), with_table);
+        made.push((path, text));
+    }
     let folder = root.join("crates/lissom/src/builder/entries");
     for (name, text) in typed_entries(&registry()) {
         made.push((folder.join(format!("{name}.rs")), format!("{RUST_NOTE}{}\n", text.trim_end())));
@@ -29,22 +40,43 @@ fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
     made
 }
 
-/// The chapter on warnings with the tables of the catalogue between its marks.
-fn with_tables(chapter: &str) -> String {
-    let mut chapter = chapter.to_owned();
-    for (name, severity) in [("warnings", Severity::Warning), ("failures", Severity::Failure)] {
-        let [begin, end] = ["begin", "end"]
-            .map(|word| format!("<!-- {word} of {name}, made by `cargo xtask reference` -->\n"));
-        let row = |entry: &Entry| format!("| `{}` | {} | {} |\n", entry.code, entry.meaning, entry.advice);
-        let rows: String = catalogue().filter(|entry| entry.severity == severity).map(row).collect();
-        let table = format!("{begin}\n| code | meaning | remedy |\n|---|---|---|\n{rows}\n{end}");
-        chapter = match (chapter.find(&begin), chapter.find(&end)) {
-            (Some(from), Some(to)) => format!("{}{table}{}", &chapter[..from], &chapter[to + end.len()..]),
-            // A chapter without its marks is out of date.
-            _ => chapter + &table,
-        };
+/// A table with its name in the marks around it.
+type Table = (&'static str, String);
+
+/// A chapter with a table between its marks.
+fn with_table(chapter: String, (name, table): &Table) -> String {
+    let [begin, end] =
+        ["begin", "end"].map(|word| format!("<!-- {word} of {name}, made by `cargo xtask reference` -->\n"));
+    let table = format!("{begin}\n{table}\n{end}");
+    match (chapter.find(&begin), chapter.find(&end)) {
+        (Some(from), Some(to)) => format!("{}{table}{}", &chapter[..from], &chapter[to + end.len()..]),
+        // A chapter without its marks is out of date.
+        _ => chapter + &table,
     }
-    chapter
+}
+
+/// The entries of the catalogue of a severity.
+fn catalogued(name: &'static str, severity: Severity) -> Table {
+    let row = |entry: &Entry| format!("| `{}` | {} | {} |\n", entry.code, entry.meaning, entry.advice);
+    let rows: String = catalogue().filter(|entry| entry.severity == severity).map(row).collect();
+    (name, format!("| code | meaning | remedy |\n|---|---|---|\n{rows}"))
+}
+
+/// Which solids touch each other, every two once.
+fn pairs_of_solids() -> Table {
+    let all = FormKind::ALL;
+    let cell = |row: usize, column: usize| {
+        let parts = parts_between([all[row], all[column]]);
+        if column > row { String::new() } else { parts.unwrap_or_else(|| "no".to_owned()) }
+    };
+    let is_used = |column: &usize| (*column..all.len()).any(|row| cell(row, *column) != "no");
+    let columns: Vec<usize> = (0..all.len()).filter(is_used).collect();
+    let name = |k: &usize| all[*k].words().split_once(' ').map_or("", |(_, name)| name);
+    let line = |first: &str, cells: Vec<String>| format!("| {first} | {} |\n", cells.join(" | "));
+    let head = line("", columns.iter().map(|k| name(k).to_owned()).collect());
+    let rule = format!("|{}\n", "---|".repeat(columns.len() + 1));
+    let row = |k: usize| line(name(&k), columns.iter().map(|column| cell(k, *column)).collect());
+    ("pairs of solids", head + &rule + &(1..all.len()).map(row).collect::<String>())
 }
 
 fn reference_text() -> String {

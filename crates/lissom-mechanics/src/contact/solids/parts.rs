@@ -39,11 +39,12 @@ impl Parts {
     /// In words.
     pub(super) fn words(self) -> &'static str {
         match self {
-            Self::Middle | Self::Axis | Self::Curve | Self::Whole => "yes",
+            Self::Middle | Self::Axis | Self::Whole => "yes",
             Self::Ends => "both ends",
             Self::Corners => "corners",
             Self::Edges => "edges",
             Self::Rims => "both rims",
+            Self::Curve => "curve",
         }
     }
 }
