@@ -96,28 +96,19 @@ fn imports(text: &str) -> String {
                 "JointId",
                 "LocalLoadId",
                 "MaterialId",
+                "Part",
+                "Quantity",
                 "SectionId",
                 "SpringId",
                 "SuperelementId",
             ],
         ),
-        ("entry", &["entry", "keys", "nested"]),
+        ("builder::entry", &["entry", "keys", "nested"]),
         (
-            "values",
-            &[
-                "Inertia",
-                "Mass",
-                "Matrix",
-                "Node",
-                "Part",
-                "PositionOrNode",
-                "Quantity",
-                "SectionMass",
-                "Shear",
-                "Solid",
-            ],
+            "builder::values",
+            &["Inertia", "Mass", "Matrix", "Node", "PositionOrNode", "SectionMass", "Shear", "Solid"],
         ),
-        ("expression", &["Expression", "Function"]),
+        ("builder::expression", &["Expression", "Function"]),
     ];
     let names = |word: &&&str| {
         let letters = |c: char| c.is_alphanumeric() || c == '_';
@@ -130,8 +121,8 @@ fn imports(text: &str) -> String {
         let used: Vec<&str> = known.iter().filter(names).copied().collect();
         match used.as_slice() {
             [] => {}
-            [one] => lines.push(format!("use crate::builder::{module}::{one};\n")),
-            several => lines.push(format!("use crate::builder::{module}::{{{}}};\n", several.join(", "))),
+            [one] => lines.push(format!("use crate::{module}::{one};\n")),
+            several => lines.push(format!("use crate::{module}::{{{}}};\n", several.join(", "))),
         }
     }
     lines.sort();
