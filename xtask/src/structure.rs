@@ -405,7 +405,7 @@ mod tests {
         ("lissom-system", 5210),
         ("lissom-core", 30_340),
         ("lissom-drawing", 1380),
-        ("lissom-model", 31_440),
+        ("lissom-model", 31_420),
         ("lissom", 29_030),
         ("lissom-fmi", 660),
         ("lissom-python", 2170),

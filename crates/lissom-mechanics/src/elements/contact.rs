@@ -96,10 +96,9 @@ pub(super) struct Share {
 
 impl ContactFriction {
     /// The same with bristles that are states of the contribution, by this name and a number.
-    #[must_use]
-    pub fn with_bristles(self, name: &str, contribution: &mut Contribution) -> Self {
+    pub fn with_bristles(&self, name: &str, contribution: &mut Contribution) -> Self {
         let state = |k: usize| contribution.add_state(format!("{name} {k}"), 0.0, self.deflection);
-        Self { bristles: (1..=3).map(state).collect(), ..self }
+        Self { bristles: (1..=3).map(state).collect(), ..*self }
     }
 
     fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {

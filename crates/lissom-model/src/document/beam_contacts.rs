@@ -1,7 +1,10 @@
 //! Contacts along beams: their keys, and what these say of the law of contact.
 
+use lissom_mechanics::contact::compliance::Compliance;
+use lissom_mechanics::elements::contact::ContactFriction;
+
 use super::NodeReference;
-use super::contacts::{ContactEntry, Restitution, number_or};
+use super::contacts::{check_law, friction, number_or};
 use crate::format::keys::{Key, Shape, optional};
 use crate::reading::reader::Reader;
 use crate::text::Value;
@@ -17,9 +20,9 @@ pub enum Touching {
     Nearest(f64),
 }
 
-/// The beams of a contact.
+/// A contact of a beam.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BeamSides {
+pub struct BeamContactEntry {
     /// The tip.
     pub beam: Located<String>,
     /// The base, if it is a beam.
@@ -28,10 +31,28 @@ pub struct BeamSides {
     pub radii: [Option<f64>; 2],
     /// Where they touch.
     pub touching: Touching,
+    /// Exponent n of the penetration.
+    pub exponent: f64,
+    /// Relative increase of the normal force per penetration velocity [s/m].
+    pub dissipation: f64,
+    /// Its friction, whose bristles are added with its points.
+    pub friction: Option<ContactFriction>,
 }
 
 /// Keys that only beams have.
-const OF_BEAMS: [&str; 4] = ["radius", "base_radius", "stiffness_per_length", "points"];
+pub(super) const OF_BEAMS: [&str; 4] = ["radius", "base_radius", "stiffness_per_length", "points"];
+
+/// Keys that beams do not have, with remedies.
+pub(super) const NOT_OF_BEAMS: [(&str, &str); 8] = [
+    ("material", "give `stiffness` or `stiffness_per_length` instead"),
+    ("tip_material", "give `stiffness` or `stiffness_per_length` instead"),
+    ("restitution", "give `dissipation` instead: waves in the beam determine how it rebounds"),
+    ("rest_velocity", "remove it, and give `dissipation`"),
+    ("restitution_law", "remove it, and give `dissipation`"),
+    ("rigid", "give `stiffness` or `stiffness_per_length` instead"),
+    ("rolling_friction", "remove it"),
+    ("torsional_friction", "remove it"),
+];
 
 /// Further keys of a contact.
 pub(super) fn keys() -> [Key; 4] {
@@ -58,45 +79,20 @@ pub(super) fn keys() -> [Key; 4] {
     ]
 }
 
-fn beam_of(reader: &Reader<'_, '_>, key: &str) -> Option<Located<String>> {
+/// The beam that a key names, if it does.
+pub(super) fn beam_of(reader: &Reader<'_, '_>, key: &str) -> Option<Located<String>> {
     let node = reader.node(key)?;
     let Value::Text(text) = &node.value else { return None };
     let name = reader.context.entry_named("beams", text, node, &reader.words(key))?;
     reader.context.has("beams", &name).then(|| Located::new(name, node.span))
 }
 
-/// Whether a contact names a beam, or has keys that only beams have.
-pub(super) fn is_of_beam(reader: &Reader<'_, '_>) -> bool {
-    ["base", "tip"].iter().any(|key| beam_of(reader, key).is_some())
-        || OF_BEAMS.iter().any(|key| reader.node(key).is_some())
-}
-
-/// A contact of a beam.
+/// Base, a beam or a solid, and tip of a contact of a beam, and what it says of them.
 pub(super) fn entry(
     reader: &Reader<'_, '_>,
-    name: &str,
-    is_solid: &dyn Fn(&Located<NodeReference>) -> Option<()>,
-) -> Option<ContactEntry> {
-    match (beam_of(reader, "base"), beam_of(reader, "tip")) {
-        (None, None) => {
-            let (key, node) = OF_BEAMS.iter().find_map(|key| Some((key, reader.node(key)?)))?;
-            let message = format!("`{key}` of {} is for beams", reader.what);
-            reader.context.fail(node.span, message, "name a beam as `tip`, or remove this")
-        }
-        (Some(base), None) => {
-            let message = format!("{} has a beam as `base` and none as `tip`", reader.what);
-            reader.context.fail(base.span, message, "exchange them: the beam is the tip")
-        }
-        (base, Some(beam)) => of_beam(reader, name, (base, beam), is_solid),
-    }
-}
-
-fn of_beam(
-    reader: &Reader<'_, '_>,
-    name: &str,
     (base, beam): (Option<Located<String>>, Located<String>),
     is_solid: &dyn Fn(&Located<NodeReference>) -> Option<()>,
-) -> Option<ContactEntry> {
+) -> Option<([Located<NodeReference>; 2], BeamContactEntry)> {
     let context = reader.context;
     let start = |beam: &Located<String>| {
         let node = NodeReference::Beam { beam: beam.value.clone(), fraction: 0.0 };
@@ -115,23 +111,7 @@ fn of_beam(
         }
     };
     let given = |key: &str| reader.node(key).map(|node| node.span);
-    for (key, help) in [
-        ("material", "give `stiffness` or `stiffness_per_length` instead"),
-        ("tip_material", "give `stiffness` or `stiffness_per_length` instead"),
-        ("restitution", "give `dissipation` instead: waves in the beam determine how it rebounds"),
-        ("rest_velocity", "remove it, and give `dissipation`"),
-        ("restitution_law", "remove it, and give `dissipation`"),
-        ("rigid", "give `stiffness` or `stiffness_per_length` instead"),
-        ("rolling_friction", "remove it"),
-        ("torsional_friction", "remove it"),
-    ] {
-        if let Some(span) = given(key) {
-            let message = format!("`{key}` of {} is not available for beams", reader.what);
-            return context.fail(span, message, help);
-        }
-    }
-    let friction = number_or(reader, "friction", 0.0);
-    let at_rest = number_or(reader, "static_friction", friction);
+    let friction = friction(reader);
     let touching = match (given("stiffness"), given("stiffness_per_length")) {
         (Some(_), None) => {
             if let Some(span) = given("points") {
@@ -156,7 +136,7 @@ fn of_beam(
     };
     let is_along_part = base.is_none() && matches!(touching, Touching::Along(..));
     if let Some(span) =
-        given("friction").or(given("static_friction")).filter(|_| at_rest > 0.0 && !is_along_part)
+        given("friction").or(given("static_friction")).filter(|_| friction.is_some() && !is_along_part)
     {
         let message = format!("friction of {} is not available", reader.what);
         let help = "beams have friction with a body or the ground, with `stiffness_per_length`";
@@ -167,22 +147,17 @@ fn of_beam(
         return context.fail(span, message, "remove it: the base touches with its shape");
     }
     let radius = |key: &str| reader.number(key).map(|number| number.value);
-    let stiffness = match touching {
-        Touching::Along(stiffness, _) | Touching::Nearest(stiffness) => stiffness,
-    };
-    let between = [other, start(&beam)];
-    Some(ContactEntry {
-        name: Located::new(name.to_owned(), reader.name),
-        between,
-        others: Vec::new(),
-        beams: Some(BeamSides { beam, base, radii: [radius("base_radius"), radius("radius")], touching }),
-        stiffness: Ok(stiffness),
+    let entry = BeamContactEntry {
+        radii: [radius("base_radius"), radius("radius")],
+        touching,
         exponent: number_or(reader, "exponent", 1.0),
-        restitution: Restitution::Dissipation(number_or(reader, "dissipation", 0.0)),
-        friction: (at_rest > 0.0).then_some([friction, at_rest]),
-        stribeck: number_or(reader, "stribeck", 0.01),
-        deflection: number_or(reader, "deflection", 1e-5),
-        resistance: [0.0; 2],
-        rigid: None,
-    })
+        dissipation: number_or(reader, "dissipation", 0.0),
+        friction,
+        beam,
+        base,
+    };
+    let (Touching::Along(stiffness, _) | Touching::Nearest(stiffness)) = touching;
+    let law = Compliance { stiffness, exponent: entry.exponent };
+    check_law(reader, (Some(law), entry.friction.as_ref()))?;
+    Some(([other, start(&entry.beam)], entry))
 }

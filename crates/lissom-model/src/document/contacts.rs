@@ -3,14 +3,16 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lissom_mechanics::contact::compliance::{MIN_RESTITUTION, RestitutionLaw};
+use lissom_mechanics::contact::compliance::{Compliance, MIN_RESTITUTION, RestitutionLaw};
 use lissom_mechanics::contact::solids::PlacedSolid;
+use lissom_mechanics::elements::contact::ContactFriction;
+use lissom_mechanics::joints::rigid_contact::RigidLaw;
 use lissom_motion::Vector3;
 
-use super::beam_contacts::{self, BeamSides};
+use super::beam_contacts::{self, BeamContactEntry, NOT_OF_BEAMS, OF_BEAMS};
 use super::entries::each;
 use super::ports::two_nodes;
-use super::rigid_contacts::{self, RigidEntry};
+use super::rigid_contacts::{self, OF_DEFORMATION};
 use super::solids::shape;
 use super::{Body, NodeReference, PointMass};
 use crate::format::keys::{Key, Shape, optional, required};
@@ -39,7 +41,7 @@ pub enum Restitution {
     Coefficient(f64, f64, RestitutionLaw),
 }
 
-/// Two parts that may touch.
+/// Parts that may touch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactEntry {
     /// Name.
@@ -48,24 +50,32 @@ pub struct ContactEntry {
     pub between: [Located<NodeReference>; 2],
     /// Further parts: every two of all touch each other.
     pub others: Vec<Located<NodeReference>>,
-    /// The beams that touch, if there are any.
-    pub beams: Option<BeamSides>,
-    /// Force at a penetration of 1 m [N/mⁿ], or the materials of both parts, from which it follows.
-    pub stiffness: Result<f64, [Located<String>; 2]>,
-    /// Exponent n of the penetration.
-    pub exponent: f64,
+    /// How they touch.
+    pub law: ContactLaw,
+}
+
+/// How parts touch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ContactLaw {
+    /// Without penetration.
+    Rigid(RigidLaw),
+    /// With a beam.
+    OfBeam(BeamContactEntry),
+    /// By a force over the penetration.
+    Compliant(CompliantEntry),
+}
+
+/// A contact of solids by a force over the penetration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompliantEntry {
+    /// Normal force, or the materials of both parts, from which it follows.
+    pub compliance: Result<Compliance, [Located<String>; 2]>,
     /// Dissipation.
     pub restitution: Restitution,
-    /// Coefficients of friction: sliding and at rest; none without friction.
-    pub friction: Option<[f64; 2]>,
-    /// Sliding velocity at which their difference has fallen to 1/e [m/s].
-    pub stribeck: f64,
-    /// Tangential deflection before it slips [m].
-    pub deflection: f64,
+    /// Its friction, whose bristles are added with its points.
+    pub friction: Option<ContactFriction>,
     /// Moments against rolling and spinning per normal force [m].
     pub resistance: [f64; 2],
-    /// If it is rigid, its law; stiffness and friction of this entry are then unused.
-    pub rigid: Option<RigidEntry>,
 }
 
 impl ContactEntry {
@@ -215,46 +225,77 @@ pub(super) fn contacts(
         Some(())
     };
     each(context, "contacts", |reader, name| {
-        if beam_contacts::is_of_beam(reader) {
-            if let Some(node) = reader.node("others") {
-                let message = format!("{} is of a beam and has `others`", reader.what);
-                return context.fail(
-                    node.span,
-                    message,
-                    "write a contact for each part that the beam touches",
-                );
-            }
-            let entry = beam_contacts::entry(reader, name, &|part| is_solid(part, &reader.what));
-            return check_law(reader, entry?);
+        let entry = |between, others, law| {
+            let name = Located::new(name.to_owned(), reader.name);
+            Some(ContactEntry { name, between, others, law })
+        };
+        let kind = kind(reader)?;
+        if let Kind::OfBeam(sides) = kind {
+            let (between, law) = beam_contacts::entry(reader, sides, &|part| is_solid(part, &reader.what))?;
+            return entry(between, Vec::new(), ContactLaw::OfBeam(law));
         }
         let between = two_nodes(reader)?;
         let others = others(reader, &between)?;
         for part in between.iter().chain(&others) {
             is_solid(part, &reader.what)?;
         }
-        if let Some(rigid) = rigid_contacts::rigid(reader)? {
-            return Some(ContactEntry { others, ..rigid_contacts::entry(name, reader, between, rigid) });
+        if matches!(kind, Kind::Rigid) {
+            return entry(between, others, ContactLaw::Rigid(rigid_contacts::law(reader)?));
         }
-        let stiffness = stiffness(reader)?;
-        let exponent = number_or(reader, "exponent", 1.0);
-        let friction = number_or(reader, "friction", 0.0);
-        let at_rest = number_or(reader, "static_friction", friction);
-        let entry = ContactEntry {
-            name: Located::new(name.to_owned(), reader.name),
-            between,
-            others,
-            beams: None,
-            exponent: if stiffness.is_err() { 1.5 } else { exponent },
-            stiffness,
+        let law = CompliantEntry {
+            compliance: compliance(reader)?,
             restitution: restitution(reader)?,
-            friction: (at_rest > 0.0).then_some([friction, at_rest]),
-            stribeck: number_or(reader, "stribeck", 0.01),
-            deflection: number_or(reader, "deflection", 1e-5),
+            friction: friction(reader),
             resistance: ["rolling_friction", "torsional_friction"].map(|key| number_or(reader, key, 0.0)),
-            rigid: None,
         };
-        check_law(reader, entry)
+        check_law(reader, (law.compliance.as_ref().ok().copied(), law.friction.as_ref()))?;
+        entry(between, others, ContactLaw::Compliant(law))
     })
+}
+
+/// What a contact is between, from its keys.
+enum Kind {
+    /// That of the base, if it is one, and that of the tip.
+    OfBeam((Option<Located<String>>, Located<String>)),
+    Rigid,
+    Compliant,
+}
+
+/// The kind of a contact, which has none of the keys of other kinds.
+fn kind(reader: &Reader<'_, '_>) -> Option<Kind> {
+    let (context, what) = (reader.context, &reader.what);
+    let given = |keys: &[&'static str]| keys.iter().find_map(|key| Some((*key, reader.node(key)?.span)));
+    match (beam_contacts::beam_of(reader, "base"), beam_contacts::beam_of(reader, "tip")) {
+        (base, Some(tip)) => {
+            if let Some((_, span)) = given(&["others"]) {
+                let help = "write a contact for each part that the beam touches";
+                return context.fail(span, format!("{what} is of a beam and has `others`"), help);
+            }
+            for (key, help) in NOT_OF_BEAMS {
+                if let Some((_, span)) = given(&[key]) {
+                    let message = format!("`{key}` of {what} is not available for beams");
+                    return context.fail(span, message, help);
+                }
+            }
+            return Some(Kind::OfBeam((base, tip)));
+        }
+        (Some(base), None) => {
+            let message = format!("{what} has a beam as `base` and none as `tip`");
+            return context.fail(base.span, message, "exchange them: the beam is the tip");
+        }
+        (None, None) => {}
+    }
+    if let Some((key, span)) = given(&OF_BEAMS) {
+        let message = format!("`{key}` of {what} is for beams");
+        return context.fail(span, message, "name a beam as `tip`, or remove this");
+    }
+    if !reader.has("rigid") || !reader.flag("rigid")?.value {
+        return Some(Kind::Compliant);
+    }
+    if let Some((key, span)) = given(&OF_DEFORMATION) {
+        return context.fail(span, format!("{what} is rigid and has `{key}`"), "remove one of them");
+    }
+    Some(Kind::Rigid)
 }
 
 /// Further parts of a contact, each named once.
@@ -285,15 +326,18 @@ const SMALL_PENETRATION: f64 = 1e-6;
 const MAX_FORCE: f64 = 1e9;
 
 /// Checks stiffness, exponent and the coefficients of friction.
-fn check_law(reader: &Reader<'_, '_>, entry: ContactEntry) -> Option<ContactEntry> {
+pub(super) fn check_law(
+    reader: &Reader<'_, '_>,
+    (compliance, friction): (Option<Compliance>, Option<&ContactFriction>),
+) -> Option<()> {
     let context = reader.context;
-    if entry.exponent < 1.0 {
+    if compliance.is_some_and(|law| law.exponent < 1.0) {
         let span = reader.node("exponent").map_or(reader.name, |node| node.span);
         let message = format!("`exponent` of {} is below 1", reader.what);
         return context.fail(span, message, "the stiffness at touch would be infinite");
     }
-    if let Ok(stiffness) = entry.stiffness
-        && stiffness * SMALL_PENETRATION.powf(entry.exponent) > MAX_FORCE
+    if let Some(Compliance { stiffness, exponent }) = compliance
+        && stiffness * SMALL_PENETRATION.powf(exponent) > MAX_FORCE
     {
         let span = reader.node("stiffness").map_or(reader.name, |node| node.span);
         let message = format!(
@@ -302,14 +346,12 @@ fn check_law(reader: &Reader<'_, '_>, entry: ContactEntry) -> Option<ContactEntr
         );
         return context.fail(span, message, "lower `stiffness`, or set `rigid = true` instead");
     }
-    if let Some([friction, at_rest]) = entry.friction
-        && at_rest < friction
-    {
+    if friction.is_some_and(|friction| friction.at_rest < friction.sliding) {
         let span = reader.node("static_friction").map_or(reader.name, |node| node.span);
         let message = format!("`static_friction` of {} is below `friction`", reader.what);
         return context.fail(span, message, "static friction must not be smaller than sliding friction");
     }
-    Some(entry)
+    Some(())
 }
 
 /// A part in words.
@@ -324,7 +366,16 @@ pub(super) fn number_or(reader: &Reader<'_, '_>, key: &str, default: f64) -> f64
     reader.number(key).map_or(default, |number| number.value)
 }
 
-fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]>> {
+/// The friction of a contact, without bristles, if it has any.
+pub(super) fn friction(reader: &Reader<'_, '_>) -> Option<ContactFriction> {
+    let sliding = number_or(reader, "friction", 0.0);
+    let at_rest = number_or(reader, "static_friction", sliding);
+    let (stribeck, deflection) = (number_or(reader, "stribeck", 0.01), number_or(reader, "deflection", 1e-5));
+    let law = ContactFriction { bristles: Vec::new(), sliding, at_rest, stribeck, deflection };
+    (at_rest > 0.0).then_some(law)
+}
+
+fn compliance(reader: &Reader<'_, '_>) -> Option<Result<Compliance, [Located<String>; 2]>> {
     let context = reader.context;
     if let Some(material) = reader.node("material") {
         for key in ["stiffness", "exponent"] {
@@ -345,7 +396,8 @@ fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]
         let message = format!("{} has neither `stiffness` nor `material`", reader.what);
         return context.fail(reader.name, message, "add `stiffness`, such as 1e6");
     }
-    Some(Ok(reader.number("stiffness")?.value))
+    let stiffness = reader.number("stiffness")?.value;
+    Some(Ok(Compliance { stiffness, exponent: number_or(reader, "exponent", 1.0) }))
 }
 
 fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {

@@ -53,12 +53,11 @@ pub(crate) use crate::outputs::kinds::{Feature, Subject};
 pub use crate::reading::node_reference::{NodeReference, interface_name};
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
-pub use beam_contacts::{BeamSides, Touching};
-pub use contacts::{ContactEntry, Ground, Restitution};
+pub use beam_contacts::{BeamContactEntry, Touching};
+pub use contacts::{CompliantEntry, ContactEntry, ContactLaw, Ground, Restitution};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
-pub use rigid_contacts::RigidEntry;
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
 
 /// A model as it was written, checked.

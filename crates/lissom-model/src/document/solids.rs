@@ -28,22 +28,7 @@ const KINDS: [(&str, &[&str]); 11] = [
     ("height_field", &["heights", "extent"]),
     ("mesh", &["file", "scale"]),
 ];
-/// All dimensions; those that may be omitted.
-const DIMENSIONS: [&str; 13] = [
-    "sides",
-    "radius",
-    "inner_radius",
-    "length",
-    "axis",
-    "semi_axes",
-    "normal",
-    "points",
-    "smooth",
-    "heights",
-    "extent",
-    "file",
-    "scale",
-];
+/// Dimensions that may be omitted.
 const OPTIONAL: [&str; 4] = ["axis", "normal", "smooth", "scale"];
 /// Most corners of a hull: with each of them it may touch a plane.
 const MAX_CORNERS: usize = 200;
@@ -284,8 +269,9 @@ fn kind(own: &Reader<'_, '_>, node: &Node, what: &str) -> Option<&'static str> {
         None => *KINDS.iter().find(|(kind, _)| Some(*kind) == named)?,
     };
     let has_no_axis = matches!(kind, "box" | "sphere");
+    let all = KINDS.iter().flat_map(|(_, dimensions)| *dimensions);
     let misses = |key: &&&str| !dimensions.contains(key) || (**key == "axis" && has_no_axis);
-    if let Some(strange) = DIMENSIONS.iter().filter(misses).find(|key| own.has(key)) {
+    if let Some(strange) = all.filter(misses).find(|key| own.has(key)) {
         return context.fail(node.span, format!("a {kind} has no `{strange}`"), "remove it");
     }
     let is_needed = |key: &&&str| !OPTIONAL.contains(key) && !own.has(key);

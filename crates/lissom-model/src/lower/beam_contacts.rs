@@ -18,9 +18,9 @@ use lissom_mechanics::number::written;
 use lissom_motion::Vector3;
 use lissom_system::Builder;
 
-use super::contacts::{friction, solids};
+use super::contacts::solids;
 use super::names::Names;
-use crate::document::{BeamSides, ContactEntry, Document, Restitution, Touching};
+use crate::document::{BeamContactEntry, ContactEntry, Document, Touching};
 use crate::outputs::contact_point::ContactPoint;
 use crate::sections::Outline;
 use crate::text::report::Problem;
@@ -34,26 +34,22 @@ const MAX_PAIRS: usize = 10_000;
 struct OfBeam<'a> {
     document: &'a Document,
     entry: &'a ContactEntry,
+    law: &'a BeamContactEntry,
     /// Radius of the beam [m].
     radius: f64,
-    dissipation: f64,
 }
 
 /// Adds a contact of a beam.
 pub(super) fn add(
     document: &Document,
-    (entry, sides): (&ContactEntry, &BeamSides),
+    (entry, law): (&ContactEntry, &BeamContactEntry),
     names: &Names,
     builder: &mut Builder,
 ) -> Result<Vec<ContactPoint>, Problem> {
-    let line = names.lines.get(&sides.beam.value).ok_or_else(|| unknown(&sides.beam.value, entry))?;
-    let dissipation = match entry.restitution {
-        Restitution::Dissipation(factor) => factor,
-        Restitution::Coefficient(..) => 0.0,
-    };
-    let radius = radius(document, entry, (&sides.beam.value, "radius"), sides.radii[1])?;
-    let of_beam = OfBeam { document, entry, radius, dissipation };
-    match (&sides.base, sides.touching) {
+    let line = names.lines.get(&law.beam.value).ok_or_else(|| unknown(&law.beam.value, entry))?;
+    let radius = radius(document, entry, (&law.beam.value, "radius"), law.radii[1])?;
+    let of_beam = OfBeam { document, entry, law, radius };
+    match (&law.base, law.touching) {
         (None, Touching::Along(stiffness, points)) => {
             of_beam.along((names.node(&entry.between[0])?, line), (stiffness, points), builder)
         }
@@ -63,7 +59,7 @@ pub(super) fn add(
         (Some(base), touching) => {
             let other = names.lines.get(&base.value).ok_or_else(|| unknown(&base.value, entry))?;
             of_beam.check_apart(line, &other.nodes)?;
-            let radius = self::radius(document, entry, (&base.value, "base_radius"), sides.radii[0])?;
+            let radius = self::radius(document, entry, (&base.value, "base_radius"), law.radii[0])?;
             let curves = of_beam.intervals(&base.value, other)?;
             of_beam.with_beam((&curves, radius), (line, touching), builder)
         }
@@ -131,16 +127,18 @@ impl OfBeam<'_> {
             for k in 0..=count {
                 let before = if k > 0 { lengths[k - 1] } else { 0.0 };
                 let share = 0.5 * (before + lengths.get(k).copied().unwrap_or(0.0));
-                let compliance = Compliance { stiffness: stiffness * share, exponent: self.entry.exponent };
+                let compliance = Compliance { stiffness: stiffness * share, exponent: self.law.exponent };
                 let mut contribution = Contribution::to(builder.model());
                 let name = format!("{} {}", self.entry.name.value, all.len() + 1);
-                let friction = friction(self.entry, &name, &mut contribution);
+                let friction = self.law.friction.as_ref();
+                let friction =
+                    friction.map(|law| law.with_bristles(&format!("{name}, friction"), &mut contribution));
                 let pair = Arc::new(PointOnSurface { rounding: self.radius, surface: surface.clone() });
                 let contact = BeamContact::new(
                     CarriedFrame { node: base, offset: solid.frame },
                     Section::of_line(line, k as f64 / count as f64),
                     pair,
-                    (compliance, self.dissipation),
+                    (compliance, self.law.dissipation),
                     friction,
                 )
                 .with_name(&self.entry.name.value);
@@ -159,7 +157,7 @@ impl OfBeam<'_> {
 
     /// Name of the beam.
     fn beam(&self) -> &str {
-        self.entry.beams.as_ref().map_or("", |sides| &sides.beam.value)
+        &self.law.beam.value
     }
 
     /// The smooth line through the nodes of a beam, and these.
@@ -259,9 +257,9 @@ impl OfBeam<'_> {
         }
         for base in bases {
             for (k, tip) in tips.iter().enumerate() {
-                let law = Compliance { stiffness: stiffness(k), exponent: self.entry.exponent };
+                let law = Compliance { stiffness: stiffness(k), exponent: self.law.exponent };
                 let curves = [base.clone(), tip.clone()];
-                let contact = NearestContact::new(curves, [radius, self.radius], (law, self.dissipation));
+                let contact = NearestContact::new(curves, [radius, self.radius], (law, self.law.dissipation));
                 builder.add(Contribution::of(builder.model(), contact.clone()));
                 all.push(ContactPoint { contact: Arc::new(contact), sign: 1.0, velocity: None });
             }

@@ -13,7 +13,7 @@ use lissom_system::{Builder, JointAttachment, PlaceOnTip};
 use super::names::{Names, parameter_problem};
 use super::order::by_name;
 use super::ports;
-use crate::document::{Component, Document, NodeLocation, OnTip};
+use crate::document::{Component, ContactLaw, Document, NodeLocation, OnTip};
 use crate::functions::Ramp;
 use crate::text::report::Problem;
 
@@ -68,22 +68,16 @@ pub(super) fn add(
         }
     }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
-        if let Some(law) = &entry.rigid {
-            match super::rigid_contacts::add(document, (entry, law), names, builder) {
-                Ok(points) => drop(names.rigid_contacts.insert(entry.name.value.clone(), points)),
-                Err(problem) => problems.push(problem),
-            }
-            continue;
-        }
-        let added = if let Some(sides) = &entry.beams {
-            super::beam_contacts::add(document, (entry, sides), names, builder)
-        } else {
-            super::contacts::add(document, entry, names, builder)
+        let name = entry.name.value.clone();
+        let added = match &entry.law {
+            ContactLaw::Rigid(law) => super::rigid_contacts::add(document, (entry, *law), names, builder)
+                .map(|points| drop(names.rigid_contacts.insert(name, points))),
+            ContactLaw::OfBeam(law) => super::beam_contacts::add(document, (entry, law), names, builder)
+                .map(|points| drop(names.contacts.insert(name, points))),
+            ContactLaw::Compliant(law) => super::contacts::add(document, (entry, law), names, builder)
+                .map(|points| drop(names.contacts.insert(name, points))),
         };
-        match added {
-            Ok(points) => drop(names.contacts.insert(entry.name.value.clone(), points)),
-            Err(problem) => problems.push(problem),
-        }
+        problems.extend(added.err());
     }
     super::measurements::bind(document, builder, names, problems);
 }

@@ -6,7 +6,7 @@ use lissom_mechanics::contact::compliance::Compliance;
 use lissom_mechanics::contact::gap::Pair;
 use lissom_mechanics::contact::solids::{Meeting, PlacedSolid, meetings};
 use lissom_mechanics::elements::Contribution;
-use lissom_mechanics::elements::contact::{Contact, ContactFriction, ContactMotion, Dissipation};
+use lissom_mechanics::elements::contact::{Contact, ContactMotion, Dissipation};
 use lissom_mechanics::elements::contact_resistance::ContactResistance;
 use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, Subject};
 use lissom_mechanics::signals::event::{Direction, Event};
@@ -16,7 +16,7 @@ use lissom_system::Builder;
 
 use super::names::Names;
 use super::straight_line::Line;
-use crate::document::{ContactEntry, Document, NodeLocation, Restitution};
+use crate::document::{CompliantEntry, ContactEntry, ContactLaw, Document, NodeLocation, Restitution};
 use crate::outputs::contact_point::ContactPoint;
 use crate::reading::node_reference::NodeReference;
 use crate::text::report::Problem;
@@ -57,7 +57,11 @@ pub struct FrictionPoints {
 impl Names {
     /// Points of contact with friction that touch in the state `at` of the model of `document`; none without such contacts.
     pub fn friction_points(&self, document: &Document, at: &Kinematics) -> Option<FrictionPoints> {
-        let with_friction = document.contacts.iter().filter(|entry| entry.friction.is_some());
+        let with_friction = document.contacts.iter().filter(|entry| match &entry.law {
+            ContactLaw::Rigid(_) => false,
+            ContactLaw::OfBeam(law) => law.friction.is_some(),
+            ContactLaw::Compliant(law) => law.friction.is_some(),
+        });
         let mut names = with_friction.map(|entry| &entry.name.value).peekable();
         names.peek()?;
         let mut found = FrictionPoints::default();
@@ -73,7 +77,7 @@ impl Names {
 /// Adds a contact.
 pub(super) fn add(
     document: &Document,
-    entry: &ContactEntry,
+    (entry, law): (&ContactEntry, &CompliantEntry),
     names: &Names,
     builder: &mut Builder,
 ) -> Result<Vec<ContactPoint>, Problem> {
@@ -81,20 +85,21 @@ pub(super) fn add(
     let mut all = Vec::new();
     for (number, point) in points_of_solids(document, entry, names)?.into_iter().enumerate() {
         let own = if number == 0 { name.clone() } else { format!("{name} {}", number + 1) };
-        let compliance = compliance(document, entry, point.solids)?;
-        let (dissipation, velocity) = match entry.restitution {
+        let compliance = compliance(document, (entry, law), point.solids)?;
+        let (dissipation, velocity) = match law.restitution {
             Restitution::Dissipation(factor) => (Dissipation::Factor(factor), None),
-            Restitution::Coefficient(coefficient, least, law) => {
+            Restitution::Coefficient(coefficient, least, by) => {
                 let held = builder.add_held(&format!("{own}, impact velocity"), 0.0);
-                let relative = law.relative_dissipation(coefficient);
+                let relative = by.relative_dissipation(coefficient);
                 (Dissipation::AtTouch { relative, velocity: held, least }, Some(held))
             }
         };
         let mut contribution = Contribution::to(builder.model());
-        let friction = friction(entry, &own, &mut contribution);
-        let resistance = ContactResistance::new(entry.resistance, &own, &mut contribution);
-        let law = (compliance, dissipation);
-        let mut contact = Contact::new(point.frames, point.pair, law, friction).with_name(name);
+        let friction = law.friction.as_ref();
+        let friction = friction.map(|law| law.with_bristles(&format!("{own}, friction"), &mut contribution));
+        let resistance = ContactResistance::new(law.resistance, &own, &mut contribution);
+        let mut contact = Contact::new(point.frames, point.pair, (compliance, dissipation), friction);
+        contact = contact.with_name(name);
         if let Some(resistance) = resistance {
             contact = contact.with_resistance(resistance);
         }
@@ -106,18 +111,6 @@ pub(super) fn add(
         all.push(ContactPoint { contact: Arc::new(contact), sign: point.sign, velocity });
     }
     Ok(all)
-}
-
-/// Friction of a contact, if it has any.
-pub(super) fn friction(
-    entry: &ContactEntry,
-    name: &str,
-    contribution: &mut Contribution,
-) -> Option<ContactFriction> {
-    let (bristles, stribeck, deflection) = (Vec::new(), entry.stribeck, entry.deflection);
-    let [sliding, at_rest] = entry.friction?;
-    let friction = ContactFriction { bristles, sliding, at_rest, stribeck, deflection };
-    Some(friction.with_bristles(&format!("{name}, friction"), contribution))
 }
 
 /// The event at which an impact begins, and sets its velocity.
@@ -153,11 +146,11 @@ fn touch(
 /// The law of two solids: that of the entry, or of Hertz's theory for two balls or a ball on a plane.
 fn compliance(
     document: &Document,
-    entry: &ContactEntry,
+    (entry, law): (&ContactEntry, &CompliantEntry),
     solids: [&PlacedSolid; 2],
 ) -> Result<Compliance, Problem> {
-    let materials = match &entry.stiffness {
-        Ok(stiffness) => return Ok(Compliance { stiffness: *stiffness, exponent: entry.exponent }),
+    let materials = match &law.compliance {
+        Ok(compliance) => return Ok(*compliance),
         Err(materials) => materials,
     };
     let mut curvature = 0.0;

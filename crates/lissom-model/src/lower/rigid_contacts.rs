@@ -13,14 +13,14 @@ use lissom_system::Builder;
 use super::contacts::points_of_solids;
 use super::names::Names;
 use super::straight_line::Line;
-use crate::document::{ContactEntry, Document, RigidEntry};
+use crate::document::{ContactEntry, Document};
 use crate::outputs::contact_point::RigidPoint;
 use crate::text::report::Problem;
 
 /// Adds a rigid contact.
 pub(super) fn add(
     document: &Document,
-    (entry, law): (&ContactEntry, &RigidEntry),
+    (entry, law): (&ContactEntry, RigidLaw),
     names: &Names,
     builder: &mut Builder,
 ) -> Result<Vec<RigidPoint>, Problem> {
@@ -29,8 +29,6 @@ pub(super) fn add(
         let message = format!("contact `{name}`: a model with a latch can have no rigid contacts");
         return Err(Problem::error(entry.name.span, message).help("remove the latch, or `rigid`"));
     }
-    let law =
-        RigidLaw { restitution: law.restitution, friction: law.friction, rest_velocity: law.rest_velocity };
     let mut all: Vec<RigidPoint> = Vec::new();
     for point in points_of_solids(document, entry, names)? {
         let own = if all.is_empty() { name.clone() } else { format!("{name} {}", all.len() + 1) };
