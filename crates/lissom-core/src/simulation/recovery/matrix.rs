@@ -41,6 +41,8 @@ pub(super) struct RecoveryMatrix {
     stiff: Option<Linearization>,
     /// Whether τ² K is not negligible at these positions.
     is_stiff: bool,
+    /// Where the column was found because of which it is not.
+    stiff_at: usize,
     has_damping: bool,
     /// Scratch memory of the assembly.
     scratch: Option<Box<Scratch>>,
@@ -87,6 +89,7 @@ impl RecoveryMatrix {
             redundancy,
             stiff: system.has_stiff_elements().then(|| system.empty_linearization()),
             is_stiff: false,
+            stiff_at: 0,
             has_damping: false,
             scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
@@ -142,7 +145,8 @@ impl RecoveryMatrix {
         if let Some(stiff) = &self.stiff {
             values.iter_mut().zip(&stiff.mass).for_each(|(value, mass)| *value += mass);
             let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
-            self.is_stiff = self.exceeds(limit, stiff, &values, time);
+            let found = self.exceeding(limit, stiff, &values, time);
+            (self.is_stiff, self.stiff_at) = (found.is_some(), found.unwrap_or(0));
             self.has_damping = self.is_stiff && stiff.damping.iter().any(|value| *value != 0.0);
             for run in self.between_motions.iter().filter(|_| self.is_stiff) {
                 let own = run.position..run.position + run.length;
@@ -169,25 +173,34 @@ impl RecoveryMatrix {
         self.scratch = Some(scratch);
     }
 
-    /// Whether τ² ω² may exceed `limit` at any frequency ω: by columns j of τ D + τ² K relative to the inertias `mass`,
+    /// First of a column's entries because of which τ² ω² may exceed `limit`: by columns j of τ D + τ² K relative to the inertias `mass`,
     ///
     /// ```text
     /// τ² ω² ≤ max Σ_i |τ D + τ² K|_ij / √(M_ii M_jj)
     /// ```
-    fn exceeds(&self, limit: f64, stiff: &Linearization, mass: &[f64], time: f64) -> bool {
+    ///
+    /// The search begins with the column that was found last.
+    fn exceeding(&self, limit: f64, stiff: &Linearization, mass: &[f64], time: f64) -> Option<usize> {
         let inertia = |row: usize| mass[self.diagonal[row]];
-        self.between_motions.chunk_by(|run, next| run.column == next.column).any(|column| {
-            let of_run = |run: &Run| {
-                let entries = (run.row..run.row + run.length).zip(run.position..);
-                let terms = entries.map(|(row, k)| {
-                    let change = time * (stiff.damping[k] + time * stiff.stiffness[k]);
-                    if change == 0.0 { 0.0 } else { change.abs() / inertia(row).sqrt() }
-                });
-                terms.sum::<f64>()
-            };
-            let sum: f64 = column.iter().map(of_run).sum();
-            sum > 0.0 && sum > limit * inertia(column[0].column).sqrt()
-        })
+        let of_run = |run: &Run| {
+            let terms = (0..run.length).map(|k| {
+                let entry = run.position + k;
+                let change = time * (stiff.damping[entry] + time * stiff.stiffness[entry]);
+                if change == 0.0 { 0.0 } else { change.abs() / inertia(run.row + k).sqrt() }
+            });
+            terms.sum::<f64>()
+        };
+        let (before, after) = self.between_motions.split_at(self.stiff_at);
+        for (mut start, runs) in [(self.stiff_at, after), (0, before)] {
+            for column in runs.chunk_by(|run, next| run.column == next.column) {
+                let sum: f64 = column.iter().map(of_run).sum();
+                if sum > 0.0 && sum > limit * inertia(column[0].column).sqrt() {
+                    return Some(start);
+                }
+                start += column.len();
+            }
+        }
+        None
     }
 
     /// Solves in place for motions and multipliers.
