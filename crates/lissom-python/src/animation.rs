@@ -8,9 +8,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use lissom::analysis::{self, Analysis};
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
+use lissom::start::lower;
 use lissom::view::Results;
 use lissom::{Record, ResultFolder, Session, summary};
-use lissom::start::lower;
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;
 

@@ -3,9 +3,9 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::num::NonZero;
 
+use lissom::start::lower;
 use lissom::{Document, Model, Override, SessionError};
 use lissom_model::document::AnalysisKind;
-use lissom::start::lower;
 use pyo3::prelude::*;
 
 use crate::errors::{of_report, of_session};

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use lissom::core::consistent::Redundant;
 use lissom::core::consistent::mobility::mobility;
-use lissom::{Model, Override, Prepared, Record, Session, Stopped, Summary, summary};
 use lissom::start::lower;
+use lissom::{Model, Override, Prepared, Record, Session, Stopped, Summary, summary};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
