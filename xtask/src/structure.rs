@@ -403,7 +403,7 @@ mod tests {
         ("lissom-solver", 7000),
         ("lissom-mechanics", 32_530),
         ("lissom-system", 5210),
-        ("lissom-core", 30_360),
+        ("lissom-core", 30_390),
         ("lissom-drawing", 1380),
         ("lissom-model", 31_420),
         ("lissom", 29_030),

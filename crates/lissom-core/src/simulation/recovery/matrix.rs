@@ -10,13 +10,14 @@
 
 use lissom_solver::{Pattern, SolverKind};
 
+use super::stiff_parts::StiffParts;
 use crate::consistent::redundancy::Redundancy;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, Layout, MotionChange};
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
-use crate::system::{Blend, Linearization, Scratch, State, Sum, System, TangentAssembler};
+use crate::system::{Blend, Scratch, State, Sum, System, TangentAssembler};
 
 /// Smallest pivot, relative to its terms, with which solutions are accurate to round-off.
 const WELL_CONDITIONED: f64 = 1e-6;
@@ -26,24 +27,19 @@ const NEGLIGIBLE_FILTER: f64 = 1e-10;
 
 /// Consecutive entries of a column in consecutive rows.
 #[derive(Clone, Copy, Debug)]
-struct Run {
-    column: usize,
-    row: usize,
-    position: usize,
-    length: usize,
+pub(super) struct Run {
+    pub(super) column: usize,
+    pub(super) row: usize,
+    pub(super) position: usize,
+    pub(super) length: usize,
 }
 
 /// The matrix, its factors, and the data of the residuals.
 pub(super) struct RecoveryMatrix {
     saddle: SaddlePoint<Matrix<f64>>,
     redundancy: Redundancy,
-    /// Derivatives of the forces of elements that may be stiff, if there are any.
-    stiff: Option<Linearization>,
-    /// Whether τ² K is not negligible at these positions.
-    is_stiff: bool,
-    /// Where the column was found because of which it is not.
-    stiff_at: usize,
-    has_damping: bool,
+    /// Elements that may be stiff, if there are any.
+    stiff: Option<StiffParts>,
     /// Scratch memory of the assembly.
     scratch: Option<Box<Scratch>>,
     /// s.
@@ -57,8 +53,7 @@ pub(super) struct RecoveryMatrix {
     starts: JointStarts,
     /// Whether a row is an equation of rates.
     is_of_rates: Vec<bool>,
-    /// Entries of the diagonal, those between motions, and those of Bᵀ.
-    diagonal: Vec<usize>,
+    /// Entries between motions, and those of Bᵀ.
     between_motions: Vec<Run>,
     of_constraints: Vec<Run>,
 }
@@ -87,10 +82,7 @@ impl RecoveryMatrix {
         Self {
             saddle,
             redundancy,
-            stiff: system.has_stiff_elements().then(|| system.empty_linearization()),
-            is_stiff: false,
-            stiff_at: 0,
-            has_damping: false,
+            stiff: system.has_stiff_elements().then(|| StiffParts::new(system)),
             scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             augmentation,
@@ -104,7 +96,6 @@ impl RecoveryMatrix {
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             zero: vec![0.0; layout.multiplier_count],
             starts: JointStarts::default(),
-            diagonal: (0..count).filter_map(|row| pattern.position(row, row)).collect(),
             between_motions: runs(pattern, (0..count).filter(|&column| is_motion(column)), is_motion),
             of_constraints: runs(pattern, count..pattern.size(), |row| row < count),
             is_of_rates,
@@ -122,14 +113,6 @@ impl RecoveryMatrix {
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
         }
-        if let Some(stiff) = &mut self.stiff {
-            // The remaining derivatives are not used.
-            for values in [&mut stiff.mass, &mut stiff.damping, &mut stiff.stiffness] {
-                values.fill(0.0);
-            }
-            let out = &mut TangentAssembler::Separate(stiff);
-            system.linearize_elements(true, at, self.scratch.get_or_insert_default(), out);
-        }
         self.assemble((system, at), time, solutions);
         self.saddle.factor(system.structure(), self.scale).ok()?;
         Some(())
@@ -142,19 +125,10 @@ impl RecoveryMatrix {
         values.fill(0.0);
         let scale = self.scale;
         system.linearize_elements(false, at, &mut scratch, &mut inertial(scale, &mut values));
-        if let Some(stiff) = &self.stiff {
-            values.iter_mut().zip(&stiff.mass).for_each(|(value, mass)| *value += mass);
+        if let Some(stiff) = &mut self.stiff {
+            stiff.linearize((system, at), &mut scratch);
             let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
-            let found = self.exceeding(limit, stiff, &values, time);
-            (self.is_stiff, self.stiff_at) = (found.is_some(), found.unwrap_or(0));
-            self.has_damping = self.is_stiff && stiff.damping.iter().any(|value| *value != 0.0);
-            for run in self.between_motions.iter().filter(|_| self.is_stiff) {
-                let own = run.position..run.position + run.length;
-                let derivatives = stiff.damping[own.clone()].iter().zip(&stiff.stiffness[own.clone()]);
-                for (value, (damping, stiffness)) in values[own].iter_mut().zip(derivatives) {
-                    *value += time * (damping + time * stiffness);
-                }
-            }
+            stiff.add(&self.between_motions, (time, limit), &mut values);
         }
         let point = self.point(at, &self.zero);
         system.linearize_constraints(
@@ -171,36 +145,6 @@ impl RecoveryMatrix {
         }
         self.saddle.matrices.values = values;
         self.scratch = Some(scratch);
-    }
-
-    /// First of a column's entries because of which τ² ω² may exceed `limit`: by columns j of τ D + τ² K relative to the inertias `mass`,
-    ///
-    /// ```text
-    /// τ² ω² ≤ max Σ_i |τ D + τ² K|_ij / √(M_ii M_jj)
-    /// ```
-    ///
-    /// The search begins with the column that was found last.
-    fn exceeding(&self, limit: f64, stiff: &Linearization, mass: &[f64], time: f64) -> Option<usize> {
-        let inertia = |row: usize| mass[self.diagonal[row]];
-        let of_run = |run: &Run| {
-            let terms = (0..run.length).map(|k| {
-                let entry = run.position + k;
-                let change = time * (stiff.damping[entry] + time * stiff.stiffness[entry]);
-                if change == 0.0 { 0.0 } else { change.abs() / inertia(run.row + k).sqrt() }
-            });
-            terms.sum::<f64>()
-        };
-        let (before, after) = self.between_motions.split_at(self.stiff_at);
-        for (mut start, runs) in [(self.stiff_at, after), (0, before)] {
-            for column in runs.chunk_by(|run, next| run.column == next.column) {
-                let sum: f64 = column.iter().map(of_run).sum();
-                if sum > 0.0 && sum > limit * inertia(column[0].column).sqrt() {
-                    return Some(start);
-                }
-                start += column.len();
-            }
-        }
-        None
     }
 
     /// Solves in place for motions and multipliers.
@@ -228,7 +172,7 @@ impl RecoveryMatrix {
 
     /// Whether there are elements that are stiff at these positions.
     pub(super) fn is_stiff(&self) -> bool {
-        self.is_stiff
+        self.stiff.as_ref().is_some_and(|stiff| stiff.has_effect)
     }
 
     /// Replaces multipliers by those of least norm that are in equilibrium with the same loads.
@@ -240,12 +184,13 @@ impl RecoveryMatrix {
     /// of motion, and no pivot has lost digits.
     pub(super) fn is_exact(&self) -> bool {
         let report = self.saddle.report();
-        !self.has_damping && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
+        !self.stiff.as_ref().is_some_and(StiffParts::has_damping)
+            && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
     }
 
     /// out += K x over motions, x by row; equations of rates have no stiffness.
     pub(super) fn add_stiffness_product(&self, x: impl Fn(usize) -> f64, out: &mut [f64]) {
-        let Some(stiff) = &self.stiff else { return };
+        let Some(StiffParts { derivatives: stiff, .. }) = &self.stiff else { return };
         for run in &self.between_motions {
             let value = x(run.column);
             let entries = &stiff.stiffness[run.position..run.position + run.length];

@@ -20,6 +20,7 @@
 //! if τ² ω² ≤ ρ for all frequencies ω, n solutions remove a share of at most ρⁿ. Derivation: docs/theory/recovery.md.
 
 mod matrix;
+mod stiff_parts;
 
 use crate::consistent::initial_conditions::{gather_accelerations, gather_rates, scatter_accelerations};
 use crate::integrator::pivoting_unless_augmented;
