@@ -152,7 +152,7 @@ impl ModelAxis {
 
 /// Type of a parameter. For three numbers it also declares the axes in which they are expressed: the decoder of model files
 /// transforms those in model axes to the axes of the part in which they are written, once, and kinds receive global axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ParameterType {
     /// A finite number.
     Number,
@@ -160,6 +160,8 @@ pub enum ParameterType {
     Positive,
     /// A finite number that must not be negative.
     NotNegative,
+    /// A number from the first to the second, both included.
+    Between(f64, f64),
     /// Three finite numbers that are not expressed in model axes: no spatial vector, or one in axes of a body. They are
     /// not transformed.
     Vector,
@@ -212,6 +214,7 @@ impl ParameterType {
             | Self::Number
             | Self::Positive
             | Self::NotNegative
+            | Self::Between(..)
             | Self::Flag
             | Self::Function
             | Self::Size
@@ -228,6 +231,39 @@ impl ParameterType {
     }
 }
 
+/// What an omitted value is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DefaultValue {
+    /// This number, in SI units.
+    Number(f64),
+    /// True or false.
+    Flag(bool),
+    /// One of the words of a choice.
+    Word(&'static str),
+}
+
+impl fmt::Display for DefaultValue {
+    /// As in a model file.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) if *number != 0.0 && number.abs() < 1e-2 => write!(out, "{number:e}"),
+            Self::Number(number) => write!(out, "{number}"),
+            Self::Flag(flag) => write!(out, "`{flag}`"),
+            Self::Word(word) => write!(out, "`\"{word}\"`"),
+        }
+    }
+}
+
+impl DefaultValue {
+    /// `summary` followed by the default, if there is one.
+    pub fn in_words(default: Option<Self>, summary: &str) -> String {
+        let Some(default) = default else { return summary.to_owned() };
+        let sentence = summary.trim_end_matches('.');
+        let stop = &summary[sentence.len()..];
+        format!("{sentence}; default {default}{stop}")
+    }
+}
+
 /// One parameter of a kind.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
@@ -239,8 +275,10 @@ pub struct Parameter {
     pub required: bool,
     /// Unit, such as `N m/rad`; empty for none.
     pub unit: &'static str,
-    /// One sentence.
+    /// One sentence, without the default.
     pub summary: &'static str,
+    /// Its value where it is omitted; none if that follows from others or means that something is absent.
+    pub default: Option<DefaultValue>,
 }
 
 impl Parameter {
@@ -251,7 +289,7 @@ impl Parameter {
         unit: &'static str,
         summary: &'static str,
     ) -> Self {
-        Self { name, holds, required: true, unit, summary }
+        Self { name, holds, required: true, unit, summary, default: None }
     }
 
     /// An optional parameter.
@@ -261,7 +299,30 @@ impl Parameter {
         unit: &'static str,
         summary: &'static str,
     ) -> Self {
-        Self { name, holds, required: false, unit, summary }
+        Self { name, holds, required: false, unit, summary, default: None }
+    }
+
+    /// The same with this number as its default.
+    #[must_use]
+    pub const fn or_number(self, value: f64) -> Self {
+        Self { default: Some(DefaultValue::Number(value)), ..self }
+    }
+
+    /// The same with this default.
+    #[must_use]
+    pub const fn or_flag(self, value: bool) -> Self {
+        Self { default: Some(DefaultValue::Flag(value)), ..self }
+    }
+
+    /// The same with this word as its default.
+    #[must_use]
+    pub const fn or_word(self, word: &'static str) -> Self {
+        Self { default: Some(DefaultValue::Word(word)), ..self }
+    }
+
+    /// Its summary with the default.
+    pub fn meaning(&self) -> String {
+        DefaultValue::in_words(self.default, self.summary)
     }
 }
 
@@ -270,16 +331,18 @@ pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
     "angle",
     ParameterType::Number,
     "rad",
-    "Value of the relative rotation at the start; default 0.",
-);
+    "Value of the relative rotation at the start.",
+)
+.or_number(0.0);
 
 /// The initial relative displacement of a joint.
 pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
     "displacement",
     ParameterType::Number,
     "m",
-    "Value of the relative displacement at the start; default 0.",
-);
+    "Value of the relative displacement at the start.",
+)
+.or_number(0.0);
 
 /// Which coordinate of a joint that has several.
 pub(crate) const COORDINATE: Parameter = Parameter::optional(
@@ -336,10 +399,12 @@ pub enum Value {
     Input(DiscreteValueId),
 }
 
-/// The parameters given for one component, by name.
+/// The parameters given for one component, by name. What is not given has the default of its declaration.
 #[derive(Clone, Debug, Default)]
 pub struct Parameters {
     values: BTreeMap<String, Value>,
+    /// Declarations, whose defaults apply to what is not given.
+    declared: &'static [Parameter],
 }
 
 /// A parameter that is missing or of the wrong kind.
@@ -363,6 +428,16 @@ impl Parameters {
     /// No parameters.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// The same, with the defaults of these declarations.
+    #[must_use]
+    pub fn declared(&self, declared: &'static [Parameter]) -> Self {
+        Self { values: self.values.clone(), declared }
+    }
+
+    fn default_of(&self, name: &str) -> Option<&'static DefaultValue> {
+        self.declared.iter().find(|parameter| parameter.name == name)?.default.as_ref()
     }
 
     /// Adds or replaces a value.
@@ -400,14 +475,14 @@ impl Parameters {
         self.values.contains_key(name)
     }
 
-    /// A required number.
+    /// A number that is given or has a default.
     ///
     /// # Errors
     /// If it is missing or not a number.
     pub fn number(&self, name: &str) -> Result<f64, ParameterError> {
-        match self.values.get(name) {
-            Some(Value::Number(value)) => Ok(*value),
-            other => Err(wrong(name, "a number", other)),
+        match (self.values.get(name), self.default_of(name)) {
+            (Some(Value::Number(value)), _) | (None, Some(DefaultValue::Number(value))) => Ok(*value),
+            (other, _) => Err(wrong(name, "a number", other)),
         }
     }
 
@@ -449,15 +524,14 @@ impl Parameters {
         }
     }
 
-    /// A flag, or `default` if it is not given.
+    /// A flag that is given or has a default.
     ///
     /// # Errors
-    /// If it is given and not a flag.
-    pub fn flag_or(&self, name: &str, default: bool) -> Result<bool, ParameterError> {
-        match self.values.get(name) {
-            None => Ok(default),
-            Some(Value::Flag(value)) => Ok(*value),
-            other => Err(wrong(name, "true or false", other)),
+    /// If it is missing or not a flag.
+    pub fn flag(&self, name: &str) -> Result<bool, ParameterError> {
+        match (self.values.get(name), self.default_of(name)) {
+            (Some(Value::Flag(value)), _) | (None, Some(DefaultValue::Flag(value))) => Ok(*value),
+            (other, _) => Err(wrong(name, "true or false", other)),
         }
     }
 
@@ -472,15 +546,17 @@ impl Parameters {
         }
     }
 
-    /// A required function of time; a number is a constant function.
+    /// A function of time that is given or has a default; a number is a constant function.
     ///
     /// # Errors
     /// If it is missing or neither function nor number.
     pub fn function(&self, name: &str) -> Result<Function, ParameterError> {
-        match self.values.get(name) {
-            Some(Value::Function(value)) => Ok(Arc::clone(value)),
-            Some(Value::Number(value)) => Ok(Arc::new(Constant(*value))),
-            other => Err(wrong(name, "a number or an expression in t", other)),
+        match (self.values.get(name), self.default_of(name)) {
+            (Some(Value::Function(value)), _) => Ok(Arc::clone(value)),
+            (Some(Value::Number(value)), _) | (None, Some(DefaultValue::Number(value))) => {
+                Ok(Arc::new(Constant(*value)))
+            }
+            (other, _) => Err(wrong(name, "a number or an expression in t", other)),
         }
     }
 
@@ -554,24 +630,16 @@ impl Parameters {
         }
     }
 
-    /// A word, if it is given.
+    /// A word that is given or has a default.
     ///
     /// # Errors
-    /// If it is given and not text.
-    pub fn word(&self, name: &str) -> Result<Option<&str>, ParameterError> {
-        match self.values.get(name) {
-            None => Ok(None),
-            Some(Value::Text(word)) => Ok(Some(word)),
-            other => Err(wrong(name, "a word", other)),
+    /// If it is missing or not text.
+    pub fn word(&self, name: &str) -> Result<&str, ParameterError> {
+        match (self.values.get(name), self.default_of(name)) {
+            (Some(Value::Text(word)), _) => Ok(word),
+            (None, Some(DefaultValue::Word(word))) => Ok(word),
+            (other, _) => Err(wrong(name, "a word", other)),
         }
-    }
-
-    /// A function of time, or the constant `default` if it is not given.
-    ///
-    /// # Errors
-    /// If it is given and neither function nor number.
-    pub fn function_or(&self, name: &str, default: f64) -> Result<Function, ParameterError> {
-        if self.has(name) { self.function(name) } else { Ok(Arc::new(Constant(default))) }
     }
 }
 

@@ -137,7 +137,7 @@ fn everything_is_what_its_file_says() {
     assert_eq!(document.node_position(&NodeReference::PointMass("bob".to_owned())), Some(-Vector3::z()));
     let push = &document.loads[0].parameters;
     assert!((push.function("scale").unwrap().value(1.0) - 2.0).abs() < 1e-15);
-    assert!(push.flag_or("follower", false).unwrap());
+    assert!(push.flag("follower").unwrap());
     assert_eq!(document.analysis.end, 2.0);
     assert_eq!(document.analysis.parameters.number("alpha").unwrap(), -1.0 / 3.0);
     assert_eq!(document.parameters["half"], 0.5);

@@ -273,6 +273,7 @@ impl Builder {
         let tip = placement.at_tip.unwrap_or(self.model.nodes[placement.nodes[1]].motion.frame.position);
         let span = base.inverse_transform_point(&tip);
         let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };
+        let parameters = &parameters.declared(kind.parameters);
         let mut joint = build(parameters, &geometry)?;
         let given = start_values(joint.as_ref(), parameters)?;
         let mut base = base;

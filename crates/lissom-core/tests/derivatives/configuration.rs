@@ -128,6 +128,7 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
                 Value::Number(20.0)
             }
             ParameterType::Number => Value::Number(random.number()),
+            ParameterType::Between(low, high) => Value::Number(low + (high - low) * random.number().abs()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
             ParameterType::Vector
             | ParameterType::GlobalVector

@@ -55,22 +55,23 @@ pub const KIND: ElementKind = ElementKind {
             "stiffness",
             ParameterType::Matrix,
             "N/m, N, N m/rad",
-            "6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0.",
-        ),
+            "6 x 6 or its diagonal: displacements along the axes, rotations about them.",
+        ).or_number(0.0),
         Parameter::optional(
             "damping",
             ParameterType::Matrix,
             "N s/m, N s, N m s/rad",
-            "6 x 6 or its diagonal, as `stiffness`; default 0.",
-        ),
+            "6 x 6 or its diagonal, as `stiffness`.",
+        ).or_number(0.0),
         AXIS,
         SECOND_AXIS,
         Parameter::optional(
             "form",
             ParameterType::Choice(&FORMS),
             "",
-            "Displacement and rotation in the axes of the base (\"base_axes\", default), or as a screw, which is the same from both sides.",
-        ),
+            "Displacement and rotation in the axes of the base (\"base_axes\"), or as a screw, which is the same from both sides.",
+        )
+        .or_word(FORMS[0]),
     ],
     ports: Ports::TWO_LOCATIONS,
     build,
@@ -110,7 +111,7 @@ fn build(
     let (nodes, points) = attached.two_nodes()?;
     let axes = axes(parameters)?;
     let [a, b] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
-    let is_screw = parameters.word("form")? == Some(FORMS[1]);
+    let is_screw = parameters.word("form")? == FORMS[1];
     let [stiffness, damping] =
         [parameters.matrix_or_zero("stiffness")?, parameters.matrix_or_zero("damping")?];
     // Forces along the axes of the base do not depend on the rotation of the tip.

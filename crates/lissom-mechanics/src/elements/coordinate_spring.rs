@@ -19,8 +19,8 @@ pub(crate) const TORSIONAL: ElementKind = ElementKind {
     summary: "Spring and damper on a joint's relative rotation.",
     sample: "stiffness = 10.0",
     parameters: &[
-        Parameter::optional("stiffness", ParameterType::NotNegative, "N m/rad", "Stiffness; default 0."),
-        Parameter::optional("damping", ParameterType::NotNegative, "N m s/rad", "Damping; default 0."),
+        Parameter::optional("stiffness", ParameterType::NotNegative, "N m/rad", "Stiffness.").or_number(0.0),
+        Parameter::optional("damping", ParameterType::NotNegative, "N m s/rad", "Damping.").or_number(0.0),
         Parameter::optional(
             "moment",
             ParameterType::Force(&["rotation", "rate"]),
@@ -44,14 +44,11 @@ pub(crate) const TORSIONAL: ElementKind = ElementKind {
             "backlash",
             ParameterType::NotNegative,
             "rad",
-            "Width of the backlash about the free rotation, without moment; default 0.",
-        ),
-        Parameter::optional(
-            "angle",
-            ParameterType::Number,
-            "rad",
-            "Relative rotation without moment; default 0.",
-        ),
+            "Width of the backlash about the free rotation, without moment.",
+        )
+        .or_number(0.0),
+        Parameter::optional("angle", ParameterType::Number, "rad", "Relative rotation without moment.")
+            .or_number(0.0),
         PRELOAD_MOMENT,
         COORDINATE,
     ],
@@ -67,8 +64,8 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
     summary: "Spring and damper on a joint's relative displacement.",
     sample: "stiffness = 1000.0",
     parameters: &[
-        Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness; default 0."),
-        Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping; default 0."),
+        Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness.").or_number(0.0),
+        Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping.").or_number(0.0),
         Parameter::optional(
             "force",
             ParameterType::Force(&["elongation", "rate"]),
@@ -87,14 +84,16 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
             "backlash",
             ParameterType::NotNegative,
             "m",
-            "Width of the backlash about the free length, without force; default 0.",
-        ),
+            "Width of the backlash about the free length, without force.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "displacement",
             ParameterType::Number,
             "m",
-            "Relative displacement without force; default 0.",
-        ),
+            "Relative displacement without force.",
+        )
+        .or_number(0.0),
         PRELOAD_FORCE,
         COORDINATE,
     ],

@@ -28,13 +28,14 @@ pub(super) const LOAD_PARAMETERS: &[Parameter] = &[
         "N or N m",
         "Force or moment at scale 1, in global axes at the start.",
     ),
-    Parameter::optional("scale", ParameterType::Size, "", "Factor; default 1."),
+    Parameter::optional("scale", ParameterType::Size, "", "Factor.").or_number(1.0),
     Parameter::optional(
         "follower",
         ParameterType::Flag,
         "",
-        "Whether it rotates with the node; default false: its direction is fixed.",
-    ),
+        "Whether it rotates with the node; otherwise its direction is fixed.",
+    )
+    .or_flag(false),
 ];
 
 /// Force on a point of a node.
@@ -60,14 +61,14 @@ impl DirectedLoad {
         node: NodeId,
         parameters: &Parameters,
     ) -> Result<Self, ParameterError> {
-        let follower = parameters.flag_or("follower", false)?;
+        let follower = parameters.flag("follower")?;
         if follower && model.nodes[node].freedoms.is_point() {
             let problem = "rotates with the node, and a point mass has no rotation: remove it, or make the point mass a body";
             return Err(ParameterError::new("follower", problem));
         }
         let vector = parameters.vector("vector")?;
         let vector = if follower { model.frame(node).rotation.apply_inverse(&vector) } else { vector };
-        Ok(Self { vector, scale: parameters.function_or("scale", 1.0)?, follower })
+        Ok(Self { vector, scale: parameters.function("scale")?, follower })
     }
 
     /// Breakpoints of the function [s].

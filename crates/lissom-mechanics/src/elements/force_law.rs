@@ -39,16 +39,18 @@ pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
     "side",
     ParameterType::Choice(&["both", "tension", "compression"]),
     "",
-    "Where it acts: beyond its free length (\"tension\"), below it (\"compression\"), or both; default both.",
-);
+    "Where it acts: beyond its free length (\"tension\"), below it (\"compression\"), or both.",
+)
+.or_word("both");
 
 /// The same for angles.
 pub(crate) const SIDE_OF_ANGLE: Parameter = Parameter::optional(
     "side",
     ParameterType::Choice(&["both", "positive", "negative"]),
     "",
-    "Where it acts: above its free rotation (\"positive\"), below it (\"negative\"), or both; default both.",
-);
+    "Where it acts: above its free rotation (\"positive\"), below it (\"negative\"), or both.",
+)
+.or_word("both");
 
 /// The side on which it acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,8 +101,8 @@ impl ForceLaw {
     /// If a parameter is of the wrong kind.
     pub(crate) fn new(parameters: &Parameters, [elastic, damper]: [&str; 2]) -> Result<Self, ParameterError> {
         let side = match parameters.word("side")? {
-            Some("tension" | "positive") => Side::Positive,
-            Some("compression" | "negative") => Side::Negative,
+            "tension" | "positive" => Side::Positive,
+            "compression" | "negative" => Side::Negative,
             _ => Side::Both,
         };
         let [low, high] = parameters.range("limits")?.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
@@ -110,8 +112,8 @@ impl ForceLaw {
             Side::Negative => [low.min(0.0), high.min(0.0)],
         };
         let mut law = Self {
-            stiffness: parameters.number_or("stiffness", 0.0)?,
-            damping: parameters.number_or("damping", 0.0)?,
+            stiffness: parameters.number("stiffness")?,
+            damping: parameters.number("damping")?,
             elastic: parameters.force(elastic)?,
             damper: parameters.force(damper)?,
             side,
@@ -469,7 +471,8 @@ mod tests {
     }
 
     fn law(parameters: &Parameters) -> ForceLaw {
-        ForceLaw::new(parameters, ["force", "damper_force"]).unwrap()
+        let declared = parameters.declared(crate::elements::point_spring::KIND.parameters);
+        ForceLaw::new(&declared, ["force", "damper_force"]).unwrap()
     }
 
     fn cubic(by_rate: f64) -> Value {

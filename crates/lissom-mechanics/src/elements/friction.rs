@@ -37,26 +37,30 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "stribeck",
             ParameterType::Positive,
             "rad/s",
-            "Rate at which the additional moment has fallen to 1/e; default 0.01.",
-        ),
+            "Rate at which the additional moment has fallen to 1/e.",
+        )
+        .or_number(0.01),
         Parameter::optional(
             "viscous",
             ParameterType::NotNegative,
             "N m s/rad",
-            "Additional moment per rate; default 0.",
-        ),
+            "Additional moment per rate.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "deflection",
             ParameterType::Positive,
             "rad",
-            "Elastic rotation before it slips; default 1e-4.",
-        ),
+            "Elastic rotation before it slips.",
+        )
+        .or_number(DEFLECTION),
         Parameter::optional(
             "damping",
             ParameterType::NotNegative,
             "N m s/rad",
-            "Damping of the elastic rotation; default 0.",
-        ),
+            "Damping of the elastic rotation.",
+        )
+        .or_number(0.0),
         COORDINATE,
     ],
     ports: Ports::ROTATION,
@@ -80,26 +84,25 @@ pub const AXIAL: ElementKind = ElementKind {
             "stribeck",
             ParameterType::Positive,
             "m/s",
-            "Velocity at which the additional force has fallen to 1/e; default 0.01.",
-        ),
-        Parameter::optional(
-            "viscous",
-            ParameterType::NotNegative,
-            "N s/m",
-            "Additional force per velocity; default 0.",
-        ),
+            "Velocity at which the additional force has fallen to 1/e.",
+        )
+        .or_number(0.01),
+        Parameter::optional("viscous", ParameterType::NotNegative, "N s/m", "Additional force per velocity.")
+            .or_number(0.0),
         Parameter::optional(
             "deflection",
             ParameterType::Positive,
             "m",
-            "Elastic displacement before it slips; default 1e-4.",
-        ),
+            "Elastic displacement before it slips.",
+        )
+        .or_number(DEFLECTION),
         Parameter::optional(
             "damping",
             ParameterType::NotNegative,
             "N s/m",
-            "Damping of the elastic displacement; default 0.",
-        ),
+            "Damping of the elastic displacement.",
+        )
+        .or_number(0.0),
         COORDINATE,
     ],
     ports: Ports::DISPLACEMENT,
@@ -128,7 +131,7 @@ fn add(
     let coordinate = attached.coordinate()?;
     model.check_quantity(coordinate, acts_on)?;
     let coulomb = parameters.number("coulomb")?;
-    let deflection = parameters.number_or("deflection", DEFLECTION)?;
+    let deflection = parameters.number("deflection")?;
     let name = format!("{}, friction", model.coordinate_name(coordinate));
     let mut contribution = Contribution::to(model);
     let bristle = contribution.add_state(name, 0.0, deflection);
@@ -136,10 +139,10 @@ fn add(
         coordinates: [coordinate, bristle],
         coulomb,
         breakaway: parameters.number_or("breakaway", 0.0)?,
-        stribeck: parameters.number_or("stribeck", 0.01)?,
-        viscous: parameters.number_or("viscous", 0.0)?,
+        stribeck: parameters.number("stribeck")?,
+        viscous: parameters.number("viscous")?,
         stiffness: coulomb / deflection,
-        damping: parameters.number_or("damping", 0.0)?,
+        damping: parameters.number("damping")?,
     }))
 }
 

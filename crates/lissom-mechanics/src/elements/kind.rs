@@ -95,6 +95,6 @@ impl ElementKind {
             let (key, axes) = self.ports.node_port(k);
             model.check_carried(key, carried, axes)?;
         }
-        (self.build)(model, attached, parameters)
+        (self.build)(model, attached, &parameters.declared(self.parameters))
     }
 }

@@ -89,7 +89,11 @@ mod tests {
             .with("stiffness", Value::Number(50.0))
             .with("damping", Value::Number(3.0))
             .with("side", Value::Text("compression".to_owned()));
-        let force = ForceLaw::new(&given, ["force", "damper_force"]).unwrap();
+        let force = ForceLaw::new(
+            &given.declared(crate::elements::point_spring::KIND.parameters),
+            ["force", "damper_force"],
+        )
+        .unwrap();
         let law = LawOfDistance { law: &force, length: 4.0 };
         let velocity = [1.0, -0.5, 0.2];
         let start = [-2.0, 1.3, 0.4];

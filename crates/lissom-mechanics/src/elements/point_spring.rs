@@ -28,8 +28,8 @@ pub(crate) const KIND: ElementKind = ElementKind {
     summary: "Spring and damper between two points, along the line through them.",
     sample: "stiffness = 100.0\ndamping = 1.0",
     parameters: &[
-        Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness; default 0."),
-        Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping; default 0."),
+        Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness.").or_number(0.0),
+        Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping.").or_number(0.0),
         Parameter::optional(
             "force",
             ParameterType::Force(&["elongation", "rate"]),
@@ -48,8 +48,9 @@ pub(crate) const KIND: ElementKind = ElementKind {
             "backlash",
             ParameterType::NotNegative,
             "m",
-            "Width of the backlash about the free length, without force; default 0.",
-        ),
+            "Width of the backlash about the free length, without force.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "length",
             ParameterType::NotNegative,

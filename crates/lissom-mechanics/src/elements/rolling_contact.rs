@@ -63,32 +63,32 @@ pub const KIND: ElementKind = ElementKind {
             "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for \
             a ball of radius `rim`.",
         ),
-        Parameter::optional("rim", ParameterType::NotNegative, "m", "Rounding radius of the rim; default 0."),
+        Parameter::optional("rim", ParameterType::NotNegative, "m", "Rounding radius of the rim.").or_number(0.0),
         Parameter::required("stiffness", ParameterType::Positive, "N/m", "Normal force per penetration."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
             "s/m",
-            "Relative increase of the normal force per penetration velocity; default 0.",
-        ),
+            "Relative increase of the normal force per penetration velocity.",
+        ).or_number(0.0),
         Parameter::optional(
             "damping",
             ParameterType::NotNegative,
             "N s/m",
-            "Normal force per penetration velocity, while in contact; default 0.",
-        ),
+            "Normal force per penetration velocity, while in contact.",
+        ).or_number(0.0),
         Parameter::optional(
             "friction_coefficient",
             ParameterType::NotNegative,
             "",
-            "Coefficient of sliding friction; default 0.",
-        ),
+            "Coefficient of sliding friction.",
+        ).or_number(0.0),
         Parameter::optional(
             "slip_velocity",
             ParameterType::Positive,
             "m/s",
-            "Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps; default 0.01.",
-        ),
+            "Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps.",
+        ).or_number(0.01),
         Parameter::optional(
             "traction",
             ParameterType::FunctionOf("slip"),
@@ -106,20 +106,20 @@ pub const KIND: ElementKind = ElementKind {
             "rolling_friction",
             ParameterType::NotNegative,
             "m",
-            "Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane; default 0.",
-        ),
+            "Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane.",
+        ).or_number(0.0),
         Parameter::optional(
             "rolling_damping",
             ParameterType::NotNegative,
             "m s/rad",
-            "Additional moment per normal force and rolling rate; default 0.",
-        ),
+            "Additional moment per normal force and rolling rate.",
+        ).or_number(0.0),
         Parameter::optional(
             "rolling_rate",
             ParameterType::Positive,
             "rad/s",
-            "Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps; default 0.01.",
-        ),
+            "Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps.",
+        ).or_number(0.01),
     ],
     ports: Ports::TWO_FRAMES,
     build,
@@ -211,7 +211,7 @@ fn build(
         let problem = "is perpendicular to the plane: the wheel is flat on it and cannot roll";
         return Err(ParameterError::new("wheel_axis", problem));
     }
-    let rim = parameters.number_or("rim", 0.0)?;
+    let rim = parameters.number("rim")?;
     let radius = parameters.number_or("radius", (height.abs() - rim) / (1.0 - axis.z * axis.z).sqrt())?;
     if radius < 0.0 || radius + rim <= 0.0 {
         let problem = format!("is {radius} m with a rim of {rim} m: there is no wheel to roll");
@@ -229,7 +229,7 @@ fn build(
             frames: FramePair::new(frames),
             contact,
             compliance: Compliance { stiffness: parameters.number("stiffness")?, exponent: 1.0 },
-            dissipation: [parameters.number_or("dissipation", 0.0)?, parameters.number_or("damping", 0.0)?],
+            dissipation: [parameters.number("dissipation")?, parameters.number("damping")?],
             traction: traction(parameters)?,
             roller_angle,
             resistance: resistance(parameters)?,
@@ -251,8 +251,8 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
     let wrong = |problem: String| Err(ParameterError::new("traction", problem));
     if !parameters.has("traction") {
         return Ok(Traction::Saturated {
-            coefficient: parameters.number_or("friction_coefficient", 0.0)?,
-            velocity: parameters.number_or("slip_velocity", 0.01)?,
+            coefficient: parameters.number("friction_coefficient")?,
+            velocity: parameters.number("slip_velocity")?,
         });
     }
     for other in ["friction_coefficient", "slip_velocity"] {
@@ -276,12 +276,11 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
 }
 
 fn resistance(parameters: &Parameters) -> Result<Option<RollingResistance>, ParameterError> {
-    let [arm, damping] =
-        [parameters.number_or("rolling_friction", 0.0)?, parameters.number_or("rolling_damping", 0.0)?];
+    let [arm, damping] = [parameters.number("rolling_friction")?, parameters.number("rolling_damping")?];
     if parameters.has("rolling_rate") && arm == 0.0 {
         return Err(ParameterError::new("rolling_rate", "has no meaning without `rolling_friction`"));
     }
-    let rate = parameters.number_or("rolling_rate", 0.01)?;
+    let rate = parameters.number("rolling_rate")?;
     Ok((arm > 0.0 || damping > 0.0).then_some(RollingResistance { arm, damping, rate }))
 }
 

@@ -23,7 +23,7 @@ use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, MAX_NODES, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::ports::{PortDeclaration, PortType, Ports};
-use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
+use crate::registry::{Constant, Function, Parameter, ParameterError, ParameterType, Parameters, Value};
 use crate::signals::measurement::Gradient;
 
 /// Registry entry.
@@ -36,14 +36,14 @@ pub const KIND: ElementKind = ElementKind {
             "stiffness",
             ParameterType::NotNegative,
             "N/m",
-            "Stiffness of the whole rope; default 0.",
-        ),
+            "Stiffness of the whole rope.",
+        ).or_number(0.0),
         Parameter::optional(
             "damping",
             ParameterType::NotNegative,
             "N s/m",
-            "Damping of the whole rope; default 0.",
-        ),
+            "Damping of the whole rope.",
+        ).or_number(0.0),
         Parameter::optional(
             "force",
             ParameterType::Force(&["elongation", "rate"]),
@@ -189,7 +189,11 @@ fn build(
             drums: winding,
             pays_out,
             law: ForceLaw::new(&pulls, ["force", "damper_force"])?,
-            length: parameters.function_or("length", at_start)?,
+            length: if parameters.has("length") {
+                parameters.function("length")?
+            } else {
+                std::sync::Arc::new(Constant(at_start))
+            },
             switch_states: SwitchStates::default(),
         },
     ))

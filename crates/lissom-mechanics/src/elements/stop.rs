@@ -31,19 +31,22 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "N m/rad^n",
             "Moment at a penetration of 1 rad.",
         ),
-        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1; default 1."),
+        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1.")
+            .or_number(1.0),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
             "s/rad",
-            "Factor a of the penetration rate; default 0.",
-        ),
+            "Factor a of the penetration rate.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "damping",
             ParameterType::NotNegative,
             "N m s/rad",
-            "Moment per penetration rate, while in contact; default 0.",
-        ),
+            "Moment per penetration rate, while in contact.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "restitution",
             ParameterType::Positive,
@@ -70,19 +73,22 @@ pub const AXIAL: ElementKind = ElementKind {
             "Displacements of the two stops; none at an infinite end.",
         ),
         Parameter::required("stiffness", ParameterType::Positive, "N/m^n", "Force at a penetration of 1 m."),
-        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1; default 1."),
+        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1.")
+            .or_number(1.0),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
             "s/m",
-            "Factor a of the penetration rate; default 0.",
-        ),
+            "Factor a of the penetration rate.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "damping",
             ParameterType::NotNegative,
             "N s/m",
-            "Force per penetration rate, while in contact; default 0.",
-        ),
+            "Force per penetration rate, while in contact.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "restitution",
             ParameterType::Positive,
@@ -118,7 +124,7 @@ fn add(
 ) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
     model.check_quantity(coordinate, acts_on)?;
-    let exponent = parameters.number_or("exponent", 1.0)?;
+    let exponent = parameters.number("exponent")?;
     if exponent < 1.0 {
         return Err(ParameterError::new("exponent", "must be 1 or greater: the stiffness would be infinite"));
     }
@@ -127,7 +133,7 @@ fn add(
         coordinate: [coordinate],
         range,
         compliance: Compliance { stiffness: parameters.number("stiffness")?, exponent },
-        dissipation: [dissipation(parameters)?, parameters.number_or("damping", 0.0)?],
+        dissipation: [dissipation(parameters)?, parameters.number("damping")?],
         switch_states: SwitchStates::default(),
     };
     Ok(Contribution::of(model, stop))
@@ -139,7 +145,7 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
         if parameters.has("impact_velocity") {
             return Err(ParameterError::new("impact_velocity", "has no meaning without `restitution`"));
         }
-        return parameters.number_or("dissipation", 0.0);
+        return parameters.number("dissipation");
     }
     if parameters.has("dissipation") {
         return Err(ParameterError::new(

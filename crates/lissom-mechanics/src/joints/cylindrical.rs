@@ -27,8 +27,8 @@ pub const KIND: JointKind = JointKind {
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
         Ok(Box::new(Cylindrical {
-            angle: parameters.number_or("angle", 0.0)?,
-            displacement: parameters.number_or("displacement", 0.0)?,
+            angle: parameters.number("angle")?,
+            displacement: parameters.number("displacement")?,
         }))
     }),
 };

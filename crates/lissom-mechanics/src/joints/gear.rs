@@ -25,8 +25,9 @@ pub const KIND: JointKind = JointKind {
             "relative",
             ParameterType::Flag,
             "",
-            "Whether it is meant to relate rotations relative to parts that turn against each other; default false: warned about.",
-        ),
+            "Whether it is meant to relate rotations relative to parts that turn against each other, which is warned about otherwise.",
+        )
+        .or_flag(false),
     ],
     ports: Ports::TWO_COORDINATES,
     build: Build::Coupling(|parameters, start| {

@@ -29,8 +29,9 @@ pub const KIND: JointKind = JointKind {
             "rotations",
             ParameterType::Flag,
             "",
-            "Whether they are rotations [rad]; default false: displacements [m].",
-        ),
+            "Whether they are rotations [rad] instead of displacements [m].",
+        )
+        .or_flag(false),
     ],
     ports: Ports::NONE,
     build: Build::Free(read),
@@ -54,7 +55,7 @@ fn read(parameters: &Parameters) -> Result<Vec<FreeCoordinate>, ParameterError> 
         let problem = format!("has {} numbers, but `start` has {}", rates.len(), values.len());
         return Err(ParameterError::new("rate", problem));
     }
-    let quantity = if parameters.flag_or("rotations", false)? { Quantity::Angle } else { Quantity::Length };
+    let quantity = if parameters.flag("rotations")? { Quantity::Angle } else { Quantity::Length };
     let coordinate = Coordinate { name: quantity.relative(), quantity };
     let read = |(k, &value): (usize, &f64)| FreeCoordinate {
         coordinate,

@@ -23,7 +23,7 @@ pub const KIND: JointKind = JointKind {
     parameters: &[DISPLACEMENT_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
-        Ok(Box::new(PointOnLine { displacement: parameters.number_or("displacement", 0.0)? }))
+        Ok(Box::new(PointOnLine { displacement: parameters.number("displacement")? }))
     }),
 };
 

@@ -26,7 +26,7 @@ pub const KIND: JointKind = JointKind {
     parameters: &[DISPLACEMENT_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
-        Ok(Box::new(Prismatic { displacement: parameters.number_or("displacement", 0.0)? }))
+        Ok(Box::new(Prismatic { displacement: parameters.number("displacement")? }))
     }),
 };
 

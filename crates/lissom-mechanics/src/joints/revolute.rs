@@ -22,9 +22,7 @@ pub const KIND: JointKind = JointKind {
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[ANGLE_AT_START],
     ports: Ports::AXIS,
-    build: Build::Relative(|parameters, _| {
-        Ok(Box::new(Revolute { angle: parameters.number_or("angle", 0.0)? }))
-    }),
+    build: Build::Relative(|parameters, _| Ok(Box::new(Revolute { angle: parameters.number("angle")? }))),
 };
 
 /// A shared point and axis.

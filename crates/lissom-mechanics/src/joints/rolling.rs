@@ -49,8 +49,9 @@ pub const KIND: JointKind = JointKind {
             "rim",
             ParameterType::NotNegative,
             "m",
-            "Rounding radius of the rim; default 0, a sharp edge.",
-        ),
+            "Rounding radius of the rim; zero for a sharp edge.",
+        )
+        .or_number(0.0),
         Parameter::optional(
             "friction_coefficient",
             ParameterType::Positive,
@@ -61,9 +62,10 @@ pub const KIND: JointKind = JointKind {
             "creep",
             ParameterType::NotNegative,
             "m/(N s)",
-            "Sliding velocity per force, a linear law of creep; default 0: no sliding. Makes the forces of several wheels on one axle, \
-             which constrain each other, unique.",
-        ),
+            "Sliding velocity per force, a linear law of creep. It makes the forces of several wheels on one axle, which \
+             constrain each other, unique.",
+        )
+        .or_number(0.0),
     ],
     ports: Ports::ARM,
     build: Build::Relative(|parameters, geometry| {
@@ -78,7 +80,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
         .apply_inverse(&axis)
         .try_normalize(0.0)
         .ok_or_else(|| ParameterError::new("wheel_axis", "has no direction: all its numbers are zero"))?;
-    let rim = parameters.number_or("rim", 0.0)?;
+    let rim = parameters.number("rim")?;
     let height = geometry.span.z.abs();
     if height <= 0.0 {
         let problem =
@@ -91,7 +93,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
         radius: 0.0,
         rim,
         friction: parameters.number_or("friction_coefficient", f64::INFINITY)?,
-        creep: parameters.number_or("creep", 0.0)?,
+        creep: parameters.number("creep")?,
     };
     let upright = upright(axis.z);
     let fitting = (height - rim) / upright;

@@ -33,10 +33,7 @@ pub const KIND: JointKind = JointKind {
     ],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
-        Ok(Box::new(Screw {
-            pitch: parameters.number("lead")? / TAU,
-            angle: parameters.number_or("angle", 0.0)?,
-        }))
+        Ok(Box::new(Screw { pitch: parameters.number("lead")? / TAU, angle: parameters.number("angle")? }))
     }),
 };
 

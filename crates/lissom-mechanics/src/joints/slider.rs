@@ -34,8 +34,9 @@ pub const KIND: JointKind = JointKind {
         "orientation",
         ParameterType::Choice(&["free", "tangent", "section"]),
         "",
-        "Rotation of the tip: \"free\" (default); with the line's \"tangent\", about which it rotates freely; or with the beam's \"section\", as on a spline shaft.",
-    )],
+        "Rotation of the tip: \"free\"; with the line's \"tangent\", about which it rotates freely; or with the beam's \"section\", as on a spline shaft.",
+    )
+    .or_word("free")],
     ports: Ports(&[
         PortDeclaration::required(
             "beams",

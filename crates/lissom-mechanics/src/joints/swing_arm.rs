@@ -23,11 +23,12 @@ pub const KIND: JointKind = JointKind {
         "angle",
         ParameterType::Number,
         "rad",
-        "Value of the link's angle at the start; default 0.",
-    )],
+        "Value of the link's angle at the start.",
+    )
+    .or_number(0.0)],
     ports: Ports::ARM,
     build: Build::Relative(|parameters, geometry| {
-        let angle = parameters.number_or("angle", 0.0)?;
+        let angle = parameters.number("angle")?;
         let arm = elementary(2, angle).tr_mul(&geometry.span);
         if arm.x.hypot(arm.y) == 0.0 {
             return Err(ParameterError::new("tip", "is on the hinge's axis: the link has no length"));

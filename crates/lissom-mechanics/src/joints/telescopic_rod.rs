@@ -27,10 +27,7 @@ pub const KIND: JointKind = JointKind {
                 "is at the same position as `base`: the rod has no direction",
             ));
         }
-        Ok(Box::new(TelescopicRod {
-            span: geometry.span,
-            displacement: parameters.number_or("displacement", 0.0)?,
-        }))
+        Ok(Box::new(TelescopicRod { span: geometry.span, displacement: parameters.number("displacement")? }))
     }),
 };
 

@@ -61,8 +61,8 @@ pub const KIND: JointKind = JointKind {
             "cone_angle",
             ParameterType::Number,
             "rad",
-            "Cone angle of the wheel: its radius decreases outwards; default 0.",
-        ),
+            "Cone angle of the wheel: its radius decreases outwards.",
+        ).or_number(0.0),
         Parameter::optional(
             "wheel_profile",
             ParameterType::FunctionOf("y"),
@@ -111,8 +111,8 @@ pub const KIND: JointKind = JointKind {
             "poisson_number",
             ParameterType::NotNegative,
             "",
-            "Poisson's ratio; default 0.28.",
-        ),
+            "Poisson's ratio.",
+        ).or_number(0.28),
         Parameter::optional(
             "kalker",
             ParameterType::Vector,
@@ -130,20 +130,21 @@ pub const KIND: JointKind = JointKind {
             "velocity",
             ParameterType::GlobalVector,
             "m/s",
-            "Velocity of the base along the rail in global axes, for models in axes that move with a vehicle; default 0.",
-        ),
+            "Velocity of the base along the rail in global axes, for models in axes that move with a vehicle.",
+        ).or_number(0.0),
         Parameter::optional(
             "wheel_spin",
             ParameterType::Number,
             "rad/s",
-            "Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it; default 0.",
-        ),
+            "Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it.",
+        ).or_number(0.0),
         Parameter::optional(
             "directions",
             ParameterType::Choice(&["exact", "small_angles"]),
             "",
-            "Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`.",
-        ),
+            "Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991.",
+        )
+        .or_word("exact"),
     ],
     ports: Ports::TWO_AXES,
     build: Build::Relative(|parameters, geometry| {
@@ -197,7 +198,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     exclusive("wheel_profile", "cone_angle")?;
     exclusive("rail_profile", "head_radius")?;
     exclusive("rail_profile", "cant")?;
-    let cone_angle = parameters.number_or("cone_angle", 0.0)?;
+    let cone_angle = parameters.number("cone_angle")?;
     if cone_angle.abs() > 1.0 {
         return Err(ParameterError::new("cone_angle", "must be between -1 and 1 rad"));
     }
@@ -276,7 +277,7 @@ fn creep_of(
     if kalker.iter().any(|value| *value < 0.0) {
         return Err(ParameterError::new("kalker", "must not be negative"));
     }
-    let poisson = parameters.number_or("poisson_number", 0.28)?;
+    let poisson = parameters.number("poisson_number")?;
     if poisson > 0.5 {
         return Err(ParameterError::new("poisson_number", "must not be larger than 0.5"));
     }
@@ -300,8 +301,8 @@ fn creep_of(
         kalker: kalker.into(),
         ellipse,
         velocity: velocity.z,
-        spin: outwards * parameters.number_or("wheel_spin", 0.0)?,
-        small_angles: parameters.word("directions")? == Some("small_angles"),
+        spin: outwards * parameters.number("wheel_spin")?,
+        small_angles: parameters.word("directions")? == "small_angles",
     }))
 }
 

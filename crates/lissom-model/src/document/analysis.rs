@@ -74,12 +74,6 @@ pub const DEFAULT_MODE_COUNT: usize = 20;
 /// Load factors of buckling that are sought where no number is given.
 pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 
-/// Most steps of a path where they are not given.
-const MAX_STEPS_OF_PATH: usize = 1000;
-
-/// Default tolerance of the relative work error of adaptive load steps.
-const TOLERANCE_OF_WORK: f64 = 0.01;
-
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepChoice {
@@ -94,14 +88,14 @@ pub struct StepChoice {
 }
 
 /// Tolerance of the local error if a model specifies neither step nor tolerance.
-const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-6;
+pub(super) const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-6;
 /// Default tolerance of Newton's iterations. With adaptive steps it is a fraction of their tolerance: errors of the iterations add
 /// up over the steps, and with more than two stages, whose estimates compare positions of much smaller errors, steps become shorter
 /// by them.
-const DEFAULT_TOLERANCE: f64 = 1e-8;
+pub(super) const DEFAULT_TOLERANCE: f64 = 1e-8;
 const NEWTON_PART: f64 = 1e-3;
 /// Word of `control` by which tolerances apply to forces, too.
-const FORCES: &str = "forces";
+pub(super) const FORCES: &str = "forces";
 /// Scheme where steps are chosen and none is named, and that for tolerances above the limit: with large errors, the order of more
 /// stages does not pay for them.
 const CONTROLLED_SCHEME: &str = "radau-iia-9";
@@ -171,13 +165,9 @@ pub struct Analysis {
 pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Analysis> {
     let (node, name) = context.top("analysis")?;
     let (reader, word) = of_kind(context, "analysis", (node, "[analysis]".to_owned(), name), registry)?;
-    let number = |key: &str, default: f64| match reader.node(key) {
-        None => Some(Located::new(default, name)),
-        Some(_) => reader.number(key),
-    };
     let dynamics = word == "dynamics";
     let is_run = matches!(word, "dynamics" | "statics");
-    let start = number("start", 0.0);
+    let start = reader.number("start");
     let end = match (is_run, &start) {
         // Loads are those of an instant; functions of time are also evaluated slightly after it.
         (false, Some(start)) => Some(Located::new(start.value + 1.0, name)),
@@ -189,18 +179,18 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     } else if word == "modes" {
         modes(&reader)
     } else if word == "buckling" {
-        let count = reader.count("count").map_or(DEFAULT_BUCKLING_COUNT, |count| count.value);
-        Some(AnalysisKind::Buckling { count })
+        let count = reader.count("count");
+        count.map(|count| AnalysisKind::Buckling { count: count.value })
     } else if word == "path" {
         path(&reader)
     } else {
         load_steps(&reader)
     };
-    let scaling = reader.choice("scaling").map_or(Scaling::Physical, |word| match word.value {
+    let scaling = match reader.choice("scaling")?.value {
         "unit" => Scaling::Unit,
         "none" => Scaling::None,
         _ => Scaling::Physical,
-    });
+    };
     let scheme = match (dynamics.then(|| chosen(&reader, "scheme", &registry.schemes)).flatten(), &kind) {
         (Some(_), Some(AnalysisKind::Dynamics { control: Some(control), .. })) if !reader.has("scheme") => {
             let name = if control.relative_tolerance > COARSE { COARSE_SCHEME } else { CONTROLLED_SCHEME };
@@ -220,17 +210,17 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         }
         _ => DEFAULT_TOLERANCE,
     });
-    let (penalty, tolerance) = (number("penalty", 1e-3), number("tolerance", of_newton));
+    let tolerance = if reader.has("tolerance") { reader.number("tolerance")?.value } else { of_newton };
     let mut analysis = Analysis {
         scheme,
         parameters,
         scaling,
-        equilibrated: reader.flag("equilibrated").is_none_or(|flag| flag.value),
-        augmented: reader.flag("augmented").is_none_or(|flag| flag.value),
-        penalty: penalty?.value,
+        equilibrated: reader.flag("equilibrated")?.value,
+        augmented: reader.flag("augmented")?.value,
+        penalty: reader.number("penalty")?.value,
         solver,
-        tolerance: tolerance?.value,
-        max_iterations: reader.count("max_iterations").map_or(40, |count| count.value),
+        tolerance,
+        max_iterations: reader.count("max_iterations")?.value,
         disabled: disabled(&reader),
         output_every: if is_run { reader.count("output_every").map(|count| count.value) } else { None },
         frames_per_second: if is_run {
@@ -239,9 +229,9 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
             None
         },
         statistics_window: TimeWindow::default(),
-        energy_check: !dynamics || reader.flag("energy_check").is_none_or(|flag| flag.value),
+        energy_check: !dynamics || reader.flag("energy_check")?.value,
         vary: if word == "path" { reader.text("vary").map(|path| path.map(str::to_owned)) } else { None },
-        ramp: word == "statics" && reader.flag("ramp").is_none_or(|flag| flag.value),
+        ramp: word == "statics" && reader.flag("ramp")?.value,
         span: name,
         start: start.as_ref()?.value,
         end: end.as_ref()?.value,
@@ -287,7 +277,7 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
             "specify the value of the number at which the path ends",
         );
     }
-    let end = if reader.has("end") { reader.number("end")? } else { Located::new(1.0, reader.name) };
+    let end = reader.number("end")?;
     if end.value == 0.0 && !varies {
         return reader.context.fail(
             end.span,
@@ -296,11 +286,8 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
         );
     }
     let first = if reader.has("step") { Some(reader.number("step")?.value) } else { None };
-    let most_steps = reader.count("steps").map_or(MAX_STEPS_OF_PATH, |steps| steps.value);
-    let branch = match reader.node("branch") {
-        None => 0.0,
-        Some(_) => reader.number("branch")?.value,
-    };
+    let most_steps = reader.count("steps")?.value;
+    let branch = reader.number("branch")?.value;
     if branch.fract() != 0.0 {
         return reader.context.fail(
             reader.node("branch")?.span,
@@ -322,18 +309,15 @@ fn load_steps(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
             "remove one of them",
         );
     }
-    let relative_tolerance = match tolerance {
-        None => TOLERANCE_OF_WORK,
-        Some(_) => reader.number("relative_tolerance")?.value,
-    };
+    let relative_tolerance = reader.number("relative_tolerance")?.value;
     Some(AnalysisKind::Statics { steps: steps.map(|steps| steps.value), relative_tolerance })
 }
 
 fn modes(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
     let shift = reader.node("shift").map_or(Some(None), |_| reader.number("shift").map(Some))?;
     Some(AnalysisKind::Modes {
-        count: reader.count("count").map_or(DEFAULT_MODE_COUNT, |count| count.value),
-        undeformed: reader.choice("about").is_some_and(|word| word.value == "undeformed"),
+        count: reader.count("count")?.value,
+        undeformed: reader.choice("about")?.value == "undeformed",
         shift: shift.map(|shift| shift.value),
     })
 }
@@ -370,12 +354,10 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     }
     let max_step = max_step.map_or(LONGEST_PART * duration, |most| most.value);
     let step = step.unwrap_or(Located::new((FIRST_PART * duration).min(max_step), reader.name));
-    let relative_tolerance = tolerance.map_or(DEFAULT_RELATIVE_TOLERANCE, |tolerance| tolerance.value);
+    let relative_tolerance = reader.number("relative_tolerance")?.value;
     let output_step = output_step.map(|step| step.value);
-    let of = match reader.choice("control") {
-        Some(word) if word.value == FORCES => Controlled::Forces,
-        _ => Controlled::Positions,
-    };
+    let of =
+        if reader.choice("control")?.value == FORCES { Controlled::Forces } else { Controlled::Positions };
     Some(AnalysisKind::Dynamics {
         step,
         control: Some(StepChoice { relative_tolerance, max_step, output_step, of }),
@@ -429,7 +411,7 @@ fn scheme_parameters(
 ) -> Parameters {
     let Some(scheme) = scheme else { return Parameters::new() };
     let of = |name: &str| registry.schemes.iter().find(|entry| entry.name == name);
-    let own: &[Parameter] = of(&scheme.value).map_or(&[], |entry| entry.parameters);
+    let own: &'static [Parameter] = of(&scheme.value).map_or(&[], |entry| entry.parameters);
     for parameter in registry.schemes.iter().flat_map(|entry| entry.parameters) {
         let given =
             reader.node(parameter.name).filter(|_| !own.iter().any(|known| known.name == parameter.name));

@@ -2,6 +2,9 @@
 
 use lissom_system::solver_features::WORDS;
 
+use super::analysis::{
+    DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, DEFAULT_RELATIVE_TOLERANCE, DEFAULT_TOLERANCE, FORCES,
+};
 use crate::format::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::format::top_level::Variant;
 use crate::registry::{ChoiceEntry, Registry};
@@ -17,34 +20,37 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "",
                 "what is computed",
             ),
-            optional("start", Shape::Number, "s", "first time, default 0"),
+            optional("start", Shape::Number, "s", "first time").or_number(0.0),
             optional(
                 "scaling",
                 choice(&["physical", "unit", "none"]),
                 "",
-                "scale of the equations, default physical",
-            ),
+                "scale of the equations",
+            )
+            .or_word("physical"),
             optional(
                 "equilibrated",
                 Shape::Flag,
                 "",
-                "equilibration of rows and columns of the scaled tangent, default true",
-            ),
-            optional("augmented", Shape::Flag, "", "with the augmented Lagrangian term, default true"),
-            optional("penalty", Shape::NotNegative, "", "factor of the augmented term, default 1e-3"),
+                "equilibration of rows and columns of the scaled tangent",
+            ).or_flag(true),
+            optional("augmented", Shape::Flag, "", "with the augmented Lagrangian term").or_flag(true),
+            optional("penalty", Shape::NotNegative, "", "factor of the augmented term").or_number(1e-3),
             optional("solver", words(&registry.solvers), "", "linear solver"),
             optional(
                 "tolerance",
                 Shape::Positive,
                 "",
-                "tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`",
-            ),
+                "tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of \
+                 `relative_tolerance`, or that of the scheme",
+            )
+            .or_number(DEFAULT_TOLERANCE),
             optional(
                 "max_iterations",
                 Shape::Count(1, 10_000),
                 "",
-                "maximum number of Newton iterations, default 40",
-            ),
+                "maximum number of Newton iterations",
+            ).or_count(40),
             optional(
                 "without",
                 Shape::Choices(&WORDS),
@@ -55,7 +61,7 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "output_every",
                 Shape::Count(1, 1_000_000_000),
                 "",
-                "number of steps between records; default 1, or several records in each adaptive step",
+                "number of steps between records; default: every step, or several records in each adaptive step",
             ),
             optional(
                 "frames_per_second",
@@ -90,14 +96,16 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
             "relative_tolerance",
             Shape::Between(1e-12, 0.1),
             "",
-            "tolerance of the local error of adaptive steps, relative to the motion; default 1e-6 without `step`",
-        ),
+            "tolerance of the local error of adaptive steps, relative to the motion, if `step` is omitted",
+        )
+        .or_number(DEFAULT_RELATIVE_TOLERANCE),
         optional(
             "control",
-            choice(&["positions", "forces"]),
+            choice(&["positions", FORCES]),
             "",
-            "errors that determine adaptive steps: those of `positions` (and velocities and states, the default), or those of `forces` (and accelerations), too",
-        ),
+            "errors that determine adaptive steps: those of `positions` (and velocities and states), or those of `forces` (and accelerations), too",
+        )
+        .or_word("positions"),
         optional("max_step", Shape::Positive, "s", "maximum adaptive step, default a twentieth of the whole time"),
         optional(
             "output_step",
@@ -106,17 +114,14 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
             "interval between records of adaptive steps, interpolated within them; by default steps are sampled, up to 5000 times in all",
         ),
     ]);
-    dynamics.push(optional(
-        "energy_check",
-        Shape::Flag,
-        "",
-        "whether a spurious increase of energy is a failure, default true",
-    ));
+    dynamics.push(
+        optional("energy_check", Shape::Flag, "", "whether a spurious increase of energy is a failure")
+            .or_flag(true),
+    );
     for parameter in registry.schemes.iter().flat_map(|scheme| scheme.parameters) {
         if !dynamics.iter().any(|key| key.name == parameter.name) {
             let mut key = of_parameter(parameter);
             key.required = false;
-            key.holds = range_of(parameter.name).unwrap_or(key.holds);
             dynamics.push(key);
         }
     }
@@ -125,25 +130,31 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
 
 /// Keys of load steps, with those that all runs have.
 fn load_steps(mut statics: Vec<Key>) -> Vec<Key> {
-    statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
+    statics.push(optional("end", Shape::Number, "s", "last time").or_number(1.0));
     statics.push(optional(
         "steps",
         Shape::Count(1, 1_000_000),
         "",
         "number of load steps; default: adaptive, by contraction and error",
     ));
-    statics.push(optional(
-        "relative_tolerance",
-        Shape::Positive,
-        "",
-        "tolerance of the relative work error of adaptive load steps, default 0.01",
-    ));
-    statics.push(optional(
-        "ramp",
-        Shape::Flag,
-        "",
-        "whether gravity and constant loads are ramped from zero over the load steps, default true",
-    ));
+    statics.push(
+        optional(
+            "relative_tolerance",
+            Shape::Positive,
+            "",
+            "tolerance of the relative work error of adaptive load steps",
+        )
+        .or_number(0.01),
+    );
+    statics.push(
+        optional(
+            "ramp",
+            Shape::Flag,
+            "",
+            "whether gravity and constant loads are ramped from zero over the load steps",
+        )
+        .or_flag(true),
+    );
     statics
 }
 
@@ -152,23 +163,27 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
     common.retain(|key| !matches!(key.name, "output_every" | "frames_per_second" | "statistics_window"));
     let mut path = common.clone();
     path.extend([
-        optional("end", Shape::Number, "", "load factor at which the path ends, default 1; with `vary` the value at which it ends, which is required"),
+        optional("end", Shape::Number, "", "load factor at which the path ends; with `vary` the value at which it ends, which is required then").or_number(1.0),
         optional("step", Shape::Positive, "", "first step of the load factor or of the number, default a fiftieth of the range"),
-        optional("steps", Shape::Count(1, 1_000_000), "", "maximum number of steps, default 1000"),
+        optional("steps", Shape::Count(1, 1_000_000), "", "maximum number of steps").or_count(1000),
         optional("vary", Shape::Text, "", "number of the model file that is varied from its value there, such as `parameters.height`; default: the load factor"),
-        optional("branch", Shape::Between(-1000.0, 1000.0), "", "number of the bifurcation at which the path continues on the branch, from 1; negative for the opposite direction of the branch; default 0, none"),
+        optional("branch", Shape::Between(-1000.0, 1000.0), "", "number of the bifurcation at which the path continues on the branch, from 1; negative for the opposite direction of the branch, zero for none").or_number(0.0),
     ]);
     let mut buckling = common.clone();
-    buckling.push(optional("count", Shape::Count(1, 10_000), "", "number of load factors, default 5"));
+    buckling.push(
+        optional("count", Shape::Count(1, 10_000), "", "number of load factors")
+            .or_count(DEFAULT_BUCKLING_COUNT),
+    );
     let mut modes = common;
     modes.extend([
-        optional("count", Shape::Count(1, 100_000), "", "number of modes, default 20"),
+        optional("count", Shape::Count(1, 100_000), "", "number of modes").or_count(DEFAULT_MODE_COUNT),
         optional(
             "about",
             choice(&["static", "undeformed"]),
             "",
-            "static equilibrium under the loads at the time `start` (default), or the undeformed state without loads and gravity",
-        ),
+            "static equilibrium under the loads at the time `start`, or the undeformed state without loads and gravity",
+        )
+        .or_word("static"),
         optional("shift", Shape::NotNegative, "Hz", "frequency near which modes are computed; default: the lowest ones"),
     ]);
     vec![
@@ -180,14 +195,4 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
         Variant { word: "buckling", summary: "Buckling load factors, by a linear estimate.", keys: buckling },
         Variant { word: "modes", summary: "Natural modes about a state at rest.", keys: modes },
     ]
-}
-
-/// The range of a scheme's parameter, where its type does not state it.
-fn range_of(parameter: &str) -> Option<Shape> {
-    match parameter {
-        // HHT: unconditionally stable and second order from -1/3 to 0.
-        "alpha" => Some(Shape::Between(-1.0 / 3.0, 0.0)),
-        "spectral_radius" => Some(Shape::Between(0.0, 1.0)),
-        _ => None,
-    }
 }

@@ -47,8 +47,9 @@ pub(super) fn keys() -> Vec<Key> {
             "tolerance",
             Shape::Positive,
             "",
-            "tolerance of closed joints, relative to the size of the model; for angles [rad]; default 1e-10",
-        ),
+            "tolerance of closed joints, relative to the size of the model; for angles [rad]",
+        )
+        .or_number(DEFAULT_ASSEMBLY_TOLERANCE),
     ]
 }
 
@@ -81,10 +82,7 @@ pub(super) fn assembly(context: &Context<'_>) -> Option<AssemblyRequest> {
     let (node, span) = context.top("assembly")?;
     node.table()?;
     let reader = Reader::open(context, node, ("[assembly]".to_owned(), span), keys())?;
-    let tolerance = match reader.node("tolerance") {
-        Some(_) => reader.number("tolerance")?.value,
-        None => DEFAULT_ASSEMBLY_TOLERANCE,
-    };
+    let tolerance = reader.number("tolerance")?.value;
     let fixed = if reader.has("fixed") { parts(&reader, "fixed") } else { Vec::new() };
     Some(AssemblyRequest { fixed, tolerance, span })
 }

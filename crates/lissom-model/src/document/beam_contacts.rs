@@ -4,7 +4,7 @@ use lissom_mechanics::contact::compliance::Compliance;
 use lissom_mechanics::elements::contact::ContactFriction;
 
 use super::NodeReference;
-use super::contacts::{check_law, friction, number_or};
+use super::contacts::{check_law, friction};
 use crate::format::keys::{Key, Shape, optional};
 use crate::reading::reader::Reader;
 use crate::text::Value;
@@ -74,8 +74,9 @@ pub(super) fn keys() -> [Key; 4] {
             "points",
             Shape::Count(1, 64),
             "",
-            "with `stiffness_per_length`: number of intervals between points of contact in an element; default 2",
-        ),
+            "with `stiffness_per_length`: number of intervals between points of contact in an element",
+        )
+        .or_count(2),
     ]
 }
 
@@ -111,7 +112,7 @@ pub(super) fn entry(
         }
     };
     let given = |key: &str| reader.node(key).map(|node| node.span);
-    let friction = friction(reader);
+    let friction = friction(reader)?;
     let touching = match (given("stiffness"), given("stiffness_per_length")) {
         (Some(_), None) => {
             if let Some(span) = given("points") {
@@ -120,10 +121,9 @@ pub(super) fn entry(
             }
             Touching::Nearest(reader.number("stiffness")?.value)
         }
-        (None, Some(_)) => Touching::Along(
-            reader.number("stiffness_per_length")?.value,
-            reader.count("points").map_or(2, |count| count.value),
-        ),
+        (None, Some(_)) => {
+            Touching::Along(reader.number("stiffness_per_length")?.value, reader.count("points")?.value)
+        }
         (Some(span), Some(_)) => {
             let message = format!("{} has both `stiffness` and `stiffness_per_length`", reader.what);
             return context.fail(span, message, "remove one of them");
@@ -150,8 +150,8 @@ pub(super) fn entry(
     let entry = BeamContactEntry {
         radii: [radius("base_radius"), radius("radius")],
         touching,
-        exponent: number_or(reader, "exponent", 1.0),
-        dissipation: number_or(reader, "dissipation", 0.0),
+        exponent: reader.number("exponent")?.value,
+        dissipation: if reader.has("dissipation") { reader.number("dissipation")?.value } else { 0.0 },
         friction,
         beam,
         base,

@@ -57,7 +57,7 @@ pub(super) fn beams(
             line_span,
             stations: stations?,
             elements: elements?,
-            order: order.map_or(3, |order| order.value),
+            order: order?.value,
             up,
             twist: twist?,
             distributed: distributed?,

@@ -109,7 +109,7 @@ fn gears(context: &Context<'_>, document: &Document) {
         let [base, tip, other_base, other_tip] =
             [one[0], one[1], other[0], other[1]].map(|part| housings.root(part));
         let is_chain = base == other_tip || other_base == tip;
-        if base != other_base && !is_chain && !gear.parameters.flag_or("relative", false).unwrap_or(true) {
+        if base != other_base && !is_chain && !gear.parameters.flag("relative").unwrap_or(true) {
             let message = format!(
                 "gear `{}` relates angles relative to different parts, `{}` and `{}`, which may turn against each other",
                 gear.name.value, one[0], other[0]

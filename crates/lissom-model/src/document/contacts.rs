@@ -92,7 +92,7 @@ impl ContactEntry {
 /// Keys of `[ground]`.
 pub(super) fn ground_keys() -> Vec<Key> {
     vec![
-        optional("shape", Shape::Solid, "", "solids, in global axes; the default position is the origin"),
+        optional("shape", Shape::Solid, "", "solids, in global axes; by default at the origin"),
         optional("mesh", Shape::Text, "", "instead of `shape`: an STL or glTF file in metres, drawn only"),
     ]
 }
@@ -112,10 +112,10 @@ pub(super) fn keys() -> Vec<Key> {
             "rigid",
             Shape::Flag,
             "",
-            "instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`",
-        ),
+            "instead of `stiffness`: whether the parts touch without penetration, with impacts",
+        ).or_flag(false),
         optional("stiffness", Shape::Positive, "N/m^n", "normal force at a penetration of 1 m"),
-        optional("exponent", Shape::Positive, "", "exponent n of the penetration, at least 1; default 1"),
+        optional("exponent", Shape::Positive, "", "exponent n of the penetration, at least 1").or_number(1.0),
         optional(
             "material",
             Shape::Name("materials"),
@@ -127,54 +127,56 @@ pub(super) fn keys() -> Vec<Key> {
             "restitution",
             Shape::Between(0.0, 1.0),
             "",
-            "velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, \
-             default 0",
+            "velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; of rigid \
+             contacts from 0 to 1, and 0 if it is omitted",
         ),
         optional(
             "rest_velocity",
             Shape::Positive,
             "m/s",
-            "slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires \
-             `restitution` or `rigid`",
-        ),
+            "slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; requires `restitution` or \
+             `rigid`",
+        )
+        .or_number(1e-3),
         optional(
             "restitution_law",
             Shape::Choice(Cow::Borrowed(&["exact", "lankarani_nikravesh", "flores"])),
             "",
-            "how the dissipation follows from `restitution`; default \"exact\", the others for comparison with publications",
-        ),
+            "how the dissipation follows from `restitution`; those other than \"exact\" are for comparison with publications",
+        )
+        .or_word("exact"),
         optional(
             "dissipation",
             Shape::NotNegative,
             "s/m",
             "instead of `restitution`: relative increase of the normal force per penetration velocity",
         ),
-        optional("friction", Shape::NotNegative, "", "coefficient of sliding friction; default 0"),
+        optional("friction", Shape::NotNegative, "", "coefficient of sliding friction").or_number(0.0),
         optional(
             "static_friction",
             Shape::Positive,
             "",
-            "coefficient at rest, not below `friction`; default equal",
+            "coefficient at rest, not below `friction`; default: that of `friction`",
         ),
         optional(
             "stribeck",
             Shape::Positive,
             "m/s",
-            "sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01",
-        ),
-        optional("deflection", Shape::Positive, "m", "tangential deflection before it slips; default 1e-5"),
+            "sliding velocity at which the difference has fallen to 1/e, and friction begins to yield",
+        ).or_number(0.01),
+        optional("deflection", Shape::Positive, "m", "tangential deflection before it slips").or_number(1e-5),
         optional(
             "rolling_friction",
             Shape::NotNegative,
             "m",
-            "moment against rolling per normal force; default 0",
-        ),
+            "moment against rolling per normal force",
+        ).or_number(0.0),
         optional(
             "torsional_friction",
             Shape::NotNegative,
             "m",
-            "moment against spinning about the normal per normal force; default 0",
-        ),
+            "moment against spinning about the normal per normal force",
+        ).or_number(0.0),
     ];
     keys.extend(beam_contacts::keys());
     keys
@@ -245,8 +247,11 @@ pub(super) fn contacts(
         let law = CompliantEntry {
             compliance: compliance(reader)?,
             restitution: restitution(reader)?,
-            friction: friction(reader),
-            resistance: ["rolling_friction", "torsional_friction"].map(|key| number_or(reader, key, 0.0)),
+            friction: friction(reader)?,
+            resistance: [
+                reader.number("rolling_friction")?.value,
+                reader.number("torsional_friction")?.value,
+            ],
         };
         check_law(reader, (law.compliance.as_ref().ok().copied(), law.friction.as_ref()))?;
         entry(between, others, ContactLaw::Compliant(law))
@@ -289,7 +294,7 @@ fn kind(reader: &Reader<'_, '_>) -> Option<Kind> {
         let message = format!("`{key}` of {what} is for beams");
         return context.fail(span, message, "name a beam as `tip`, or remove this");
     }
-    if !reader.has("rigid") || !reader.flag("rigid")?.value {
+    if !reader.flag("rigid")?.value {
         return Some(Kind::Compliant);
     }
     if let Some((key, span)) = given(&OF_DEFORMATION) {
@@ -362,17 +367,14 @@ pub(crate) fn words(node: &NodeReference) -> String {
     }
 }
 
-pub(super) fn number_or(reader: &Reader<'_, '_>, key: &str, default: f64) -> f64 {
-    reader.number(key).map_or(default, |number| number.value)
-}
-
 /// The friction of a contact, without bristles, if it has any.
-pub(super) fn friction(reader: &Reader<'_, '_>) -> Option<ContactFriction> {
-    let sliding = number_or(reader, "friction", 0.0);
-    let at_rest = number_or(reader, "static_friction", sliding);
-    let (stribeck, deflection) = (number_or(reader, "stribeck", 0.01), number_or(reader, "deflection", 1e-5));
+pub(super) fn friction(reader: &Reader<'_, '_>) -> Option<Option<ContactFriction>> {
+    let sliding = reader.number("friction")?.value;
+    let at_rest =
+        if reader.has("static_friction") { reader.number("static_friction")?.value } else { sliding };
+    let (stribeck, deflection) = (reader.number("stribeck")?.value, reader.number("deflection")?.value);
     let law = ContactFriction { bristles: Vec::new(), sliding, at_rest, stribeck, deflection };
-    (at_rest > 0.0).then_some(law)
+    Some((at_rest > 0.0).then_some(law))
 }
 
 fn compliance(reader: &Reader<'_, '_>) -> Option<Result<Compliance, [Located<String>; 2]>> {
@@ -397,7 +399,7 @@ fn compliance(reader: &Reader<'_, '_>) -> Option<Result<Compliance, [Located<Str
         return context.fail(reader.name, message, "add `stiffness`, such as 1e6");
     }
     let stiffness = reader.number("stiffness")?.value;
-    Some(Ok(Compliance { stiffness, exponent: number_or(reader, "exponent", 1.0) }))
+    Some(Ok(Compliance { stiffness, exponent: reader.number("exponent")?.value }))
 }
 
 fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
@@ -414,10 +416,10 @@ fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
         (None, Some(_), None) => Some(Restitution::Dissipation(reader.number("dissipation")?.value)),
         (Some(_), None, _) => Some(Restitution::Coefficient(
             reader.number("restitution")?.value,
-            number_or(reader, "rest_velocity", 1e-3),
-            match reader.choice("restitution_law").map(|law| law.value) {
-                Some("lankarani_nikravesh") => RestitutionLaw::LankaraniNikravesh,
-                Some("flores") => RestitutionLaw::Flores,
+            reader.number("rest_velocity")?.value,
+            match reader.choice("restitution_law")?.value {
+                "lankarani_nikravesh" => RestitutionLaw::LankaraniNikravesh,
+                "flores" => RestitutionLaw::Flores,
                 _ => RestitutionLaw::Exact,
             },
         )),

@@ -30,13 +30,9 @@ pub struct EventEntry {
 pub(super) fn keys() -> Vec<Key> {
     vec![
         required("zero_of", Shape::Formula, "", "the event occurs when this expression crosses zero"),
-        optional(
-            "direction",
-            choice(&["both", "rising", "falling"]),
-            "",
-            "direction of the crossing, default `both`",
-        ),
-        optional("stop", Shape::Flag, "", "whether the run ends at the event, default `false`"),
+        optional("direction", choice(&["both", "rising", "falling"]), "", "direction of the crossing")
+            .or_word("both"),
+        optional("stop", Shape::Flag, "", "whether the run ends at the event").or_flag(false),
         optional(
             "set",
             Shape::Table,
@@ -49,9 +45,9 @@ pub(super) fn keys() -> Vec<Key> {
 pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
     each(context, "events", |reader, name| {
         let zero_of = reader.formula("zero_of");
-        let direction = match reader.choice("direction").map(|word| word.value) {
-            Some("rising") => Direction::Rising,
-            Some("falling") => Direction::Falling,
+        let direction = match reader.choice("direction")?.value {
+            "rising" => Direction::Rising,
+            "falling" => Direction::Falling,
             _ => Direction::Both,
         };
         let mut set = Vec::new();
@@ -79,7 +75,7 @@ pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
             name: Located::new(name.to_owned(), reader.name),
             zero_of: zero_of?,
             direction,
-            stop: reader.flag("stop").is_some_and(|stop| stop.value),
+            stop: reader.flag("stop")?.value,
             set,
         })
     })

@@ -57,8 +57,8 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
         None => Vector3::zeros(),
         Some(node) => reader.context.place(node, &reader.words("about"))?.value,
     };
-    let flag = |key: &str| reader.has(key) && reader.flag(key).is_some_and(|flag| flag.value);
-    let (equilibrium, steady_rotation) = (flag("equilibrium"), flag("steady_rotation"));
+    let flag = |key: &str| reader.flag(key).map(|flag| flag.value);
+    let (equilibrium, steady_rotation) = (flag("equilibrium")?, flag("steady_rotation")?);
     if equilibrium && steady_rotation {
         return reader.context.fail(
             reader.node("steady_rotation")?.span,
@@ -67,7 +67,7 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
         );
     }
     let (velocity, angular_velocity) = (vector("velocity")?, vector("angular_velocity")?);
-    let follow_drives = !reader.has("follow_drives") || flag("follow_drives");
+    let follow_drives = flag("follow_drives")?;
     Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation, follow_drives })
 }
 

@@ -135,8 +135,9 @@ pub(super) fn keys() -> Vec<Key> {
             "axes",
             choice(&AXES),
             "",
-            "axes of `force`, `moment`, velocities and relative flow: those of the section or body (default), global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too",
-        ),
+            "axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too",
+        )
+        .or_word(AXES[0]),
         optional(
             "force",
             Shape::SectionDistribution,
@@ -168,13 +169,9 @@ pub(super) fn keys() -> Vec<Key> {
 fn state_keys() -> Vec<Key> {
     vec![
         required("derivative", Shape::Formula, "1/s", "expression of its derivative by time"),
-        optional("start", Shape::Number, "", "value at the start; default 0"),
-        optional(
-            "magnitude",
-            Shape::Positive,
-            "",
-            "usual magnitude, by which errors are measured; default 1",
-        ),
+        optional("start", Shape::Number, "", "value at the start").or_number(0.0),
+        optional("magnitude", Shape::Positive, "", "usual magnitude, by which errors are measured")
+            .or_number(1.0),
     ]
 }
 
@@ -203,7 +200,7 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             return context.fail(reader.name, message, "combine some of its `variables`");
         }
         let Laws { functions, states, .. } = laws;
-        let axes = reader.choice("axes").map_or(AXES[0], |word| word.value);
+        let axes = reader.choice("axes")?.value;
         Some(LocalLoadEntry {
             name: Located::new(name.to_owned(), reader.name),
             node,
@@ -275,8 +272,8 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
             let own = Reader::open(reader.context, node, (what, node.span), state_keys())?;
             let state = LocalState {
                 name: name.to_owned(),
-                start: own.number("start").map_or(0.0, |start| start.value),
-                magnitude: own.number("magnitude").map_or(1.0, |magnitude| magnitude.value),
+                start: own.number("start")?.value,
+                magnitude: own.number("magnitude")?.value,
             };
             laws.states.push((state, own.node("derivative")?));
         }

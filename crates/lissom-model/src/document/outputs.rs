@@ -32,8 +32,11 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             }
             Subject::Expression => OutputSource::Expression(reader.formula("value")?),
         };
-        let axes = (kind.has(Feature::JointAxes).then(|| reader.choice("axes")).flatten())
-            .map_or(ReactionAxes::Ground, |word| ReactionAxes::named(word.value));
+        let axes = if kind.has(Feature::JointAxes) {
+            ReactionAxes::named(reader.choice("axes")?.value)
+        } else {
+            ReactionAxes::Ground
+        };
         let frame = |key: &str, feature| match kind.has(feature).then(|| reader.node(key)).flatten() {
             None => Some(None),
             Some(node) => frame(reader, node, key).map(Some),

@@ -225,8 +225,8 @@ pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {
         Some(StateEntry {
             name: Located::new(name.to_owned(), reader.name),
             derivative: reader.formula("derivative")?,
-            start: reader.number("start").map_or(0.0, |start| start.value),
-            magnitude: reader.number("magnitude").map_or(1.0, |magnitude| magnitude.value),
+            start: reader.number("start")?.value,
+            magnitude: reader.number("magnitude")?.value,
         })
     })
 }

@@ -72,7 +72,7 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
             for entry in entries {
                 let what = if entries.len() > 1 { format!("each entry of {what}") } else { what.clone() };
                 let own = opened(reader, entry, &what, Shape::drawn_keys())?;
-                let touches = !own.has("touches") || own.flag("touches")?.value;
+                let touches = own.flag("touches")?.value;
                 let (drawn, solid) = drawn((&own, entry), &what, center)?;
                 surface.append(&drawn);
                 solids.extend(touches.then_some(solid));
@@ -121,7 +121,7 @@ fn drawn(
         vector("position", origin)?,
     );
     if kind == "mesh" {
-        let scale = vector("scale", Vector3::repeat(1.0))?;
+        let scale = own.vector("scale")?.value;
         let surface = file(own, own.node("file")?, "file")?;
         let scaled = surface.map_or_else(Surface::default, |own| own.moved(&Motion::IDENTITY, &scale));
         let points = scaled.points.iter().map(|point| Vector3::from(point.map(f64::from))).collect();
@@ -161,7 +161,7 @@ fn outline(own: &Reader<'_, '_>) -> Option<Form> {
         let message = format!("{} cross themselves between {first:?} and {second:?}", own.words("points"));
         return context.fail(node.span, message, "give the points in their order around the outline");
     }
-    let is_smooth = own.has("smooth") && own.flag("smooth")?.value;
+    let is_smooth = own.flag("smooth")?.value;
     let form = if is_smooth {
         Spline::new(&points).map(|curve| Form::Outline(Arc::new(Outline::new(curve))))
     } else {

@@ -115,7 +115,7 @@ fn beam() -> Vec<Key> {
         optional("through", Shape::Place, "m", "an intermediate point: the beam is a circular arc"),
         optional("curve", Shape::Curve, "m", "instead of `from` and `to`: three expressions of s in 0..1"),
         required("elements", Shape::Count(1, 100_000), "", "number of elements"),
-        optional("order", Shape::Count(1, 3), "", "1, 2 or 3 (default): elements of 2, 3 or 4 nodes"),
+        optional("order", Shape::Count(1, 3), "", "1, 2 or 3: elements of 2, 3 or 4 nodes").or_count(3),
         optional("up", Shape::Direction, "", "direction towards which local axis 3 is oriented"),
         optional(
             "force_per_length",
@@ -218,13 +218,14 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
 fn state() -> Vec<Key> {
     vec![
         required("derivative", Shape::Formula, "1/s", "time derivative"),
-        optional("start", Shape::Number, "", "value at the start, default 0"),
+        optional("start", Shape::Number, "", "value at the start").or_number(0.0),
         optional(
             "magnitude",
             Shape::Positive,
             "",
-            "typical magnitude, relative to which errors are measured unless its value is larger; default 1",
-        ),
+            "typical magnitude, relative to which errors are measured unless its value is larger",
+        )
+        .or_number(1.0),
     ]
 }
 
@@ -265,12 +266,15 @@ fn output_subject(subject: Subject) -> Option<Key> {
 /// The keys of a feature of outputs.
 fn output_option(feature: Feature) -> Vec<Key> {
     match feature {
-        Feature::JointAxes => vec![optional(
-            "axes",
-            choice(&super::ReactionAxes::WORDS),
-            "",
-            "global axes, or those of the joint frame fixed in base or tip; default ground",
-        )],
+        Feature::JointAxes => vec![
+            optional(
+                "axes",
+                choice(&super::ReactionAxes::WORDS),
+                "",
+                "global axes, or those of the joint frame fixed in base or tip",
+            )
+            .or_word("ground"),
+        ],
         Feature::AngleAxis => vec![required(
             "axis",
             Shape::Direction,

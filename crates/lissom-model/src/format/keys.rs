@@ -1,214 +1,13 @@
-//! Keys of the tables of a model file, for the decoder, the schema and the reference.
-//! Contains words and types, no values.
+//! Keys of the tables of a model file, for the decoder, the schema and the reference: their words, types and defaults.
 
 use std::borrow::Cow;
 
 use lissom_mechanics::ports::{PortDeclaration, PortType};
-use lissom_mechanics::registry::{ModelAxis, Parameter, ParameterType};
+use lissom_mechanics::registry::{DefaultValue, Parameter, ParameterType};
 
-/// Shape of the value of a key.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Shape {
-    /// A text.
-    Text,
-    /// The version of the format.
-    Version,
-    /// A finite number. Every number may also be a text: an expression of the parameters.
-    Number,
-    /// A number greater than zero.
-    Positive,
-    /// A number not less than zero.
-    NotNegative,
-    /// A number from the first to the second, both included.
-    Between(f64, f64),
-    /// A whole number from the first to the second, both included.
-    Count(usize, usize),
-    /// True or false.
-    Flag,
-    /// Three numbers that are not transformed with the part.
-    Vector,
-    /// Three numbers in global axes; those of the part inside of one.
-    GlobalVector,
-    /// Three numbers, or a position in the frame of a part.
-    Point,
-    /// A list of names of parts.
-    Names,
-    /// Entries as in the table of this name at the top.
-    Entries(&'static str),
-    /// Three numbers, not all zero, in global axes; those of the part inside of one.
-    Direction,
-    /// The same with a default: this axis of the part.
-    DirectionOr(ModelAxis),
-    /// The same in axes of a body, which are not transformed.
-    BodyDirection,
-    /// One of the words.
-    Choice(Cow<'static, [&'static str]>),
-    /// A number, an expression of this variable, or a table of it.
-    FunctionOf(&'static str),
-    /// An expression of coordinates of joints and of `t`.
-    Equation,
-    /// Some of these words, each at most once.
-    Choices(&'static [&'static str]),
-    /// The name of an entry of a table.
-    Name(&'static str),
-    /// The name of a point, or three numbers.
-    Place,
-    /// The name of a point, three numbers, or a node of another part.
-    PlaceOrNode,
-    /// A node: `ground`, a body, a point mass, `beam.start`, `beam.end` or `beam@fraction`.
-    Node,
-    /// A list of nodes.
-    Nodes,
-    /// A number, an expression of the time `t`, or a table.
-    Function,
-    /// A number, an expression of time, inputs, signals, states and outputs, or a table.
-    Size,
-    /// The same without tables.
-    Formula,
-    /// A formula, or a table of a formula, its sample period and its start.
-    Signal,
-    /// A number, or an expression of `s`.
-    Profile,
-    /// Three numbers or expressions of `s`.
-    Curve,
-    /// Three numbers or expressions of `s` and `t`, in global axes; those of the part inside of one.
-    Distribution,
-    /// Three numbers or expressions of `s` and `t`, in the axes of the section.
-    SectionDistribution,
-    /// Two axes of a frame, in the axes around it.
-    Axes,
-    /// Rotation vector of a frame, in the axes around it.
-    Rotation,
-    /// A number greater than zero, or a table of a density.
-    Mass,
-    /// Three numbers, a 3 x 3 matrix, or a table of a solid.
-    Inertia,
-    /// A table of a solid.
-    Solid,
-    /// A table of friction in a joint.
-    Friction,
-    /// A table of a latch on a joint.
-    Latch,
-    /// Six numbers, or a 6 x 6 matrix.
-    Stiffness,
-    /// A 6 x 6 matrix, or a table of mass per length, inertia and centre.
-    SectionMass,
-    /// A number, two numbers, or the name of a theory.
-    Shear,
-    /// A list of sections and where they are.
-    Stations,
-    /// A list of nodes and locations on them.
-    Places,
-    /// A list of names and positions in the axes of the part.
-    Interfaces,
-    /// A list of pairs of numbers.
-    Rows,
-    /// A list of lists of equally many numbers.
-    NumberRows,
-    /// Two numbers.
-    Pair,
-    /// Two texts.
-    Words,
-    /// A number, an expression of the two named quantities, or a table over the first.
-    Force(&'static [&'static str; 2]),
-    /// Two ascending numbers, which may be infinite.
-    Range,
-    /// A list of numbers.
-    Numbers,
-    /// A number, a list of numbers, or a square list of lists of numbers.
-    SquareMatrix,
-    /// A list of joints, or of their coordinates, such as `arm.angle`.
-    Coordinates,
-    /// A table that is read entry by entry.
-    Table,
-}
-
-/// Pattern of the shapes of exactly three numbers or expressions, and of others that are added.
-macro_rules! three_numbers {
-    ($($other:pat_param),*) => {
-        Shape::Vector
-            | Shape::GlobalVector
-            | Shape::Curve
-            | Shape::Distribution
-            | Shape::SectionDistribution
-            | Shape::Rotation
-            $(| $other)*
-    };
-}
-
-/// Pattern of the shapes of directions.
-macro_rules! direction {
-    () => {
-        Shape::Direction | Shape::DirectionOr(_) | Shape::BodyDirection
-    };
-}
-
-pub(crate) use {direction, three_numbers};
+pub(crate) use super::value_types::Shape;
 
 impl Shape {
-    /// Whether the value is expressed in model axes, so that the decoder transforms it with the part in which it is written.
-    pub(crate) fn is_in_model_axes(&self) -> bool {
-        match self {
-            Self::GlobalVector
-            | Self::Point
-            | Self::Direction
-            | Self::DirectionOr(_)
-            | Self::Place
-            | Self::PlaceOrNode
-            | Self::Places
-            | Self::Curve
-            | Self::Distribution
-            | Self::Axes
-            | Self::Rotation => true,
-            // The first eight are in axes of a body, a section or an element; the others have no axes.
-            Self::Vector
-            | Self::BodyDirection
-            | Self::SectionDistribution
-            | Self::Inertia
-            | Self::Solid
-            | Self::Stiffness
-            | Self::SectionMass
-            | Self::Interfaces
-            | Self::Text
-            | Self::Version
-            | Self::Number
-            | Self::Positive
-            | Self::NotNegative
-            | Self::Between(..)
-            | Self::Count(..)
-            | Self::Flag
-            | Self::Names
-            | Self::Entries(_)
-            | Self::Choice(_)
-            | Self::FunctionOf(_)
-            | Self::Equation
-            | Self::Choices(_)
-            | Self::Name(_)
-            | Self::Node
-            | Self::Nodes
-            | Self::Function
-            | Self::Size
-            | Self::Formula
-            | Self::Signal
-            | Self::Profile
-            | Self::Mass
-            | Self::Friction
-            | Self::Latch
-            | Self::Shear
-            | Self::Stations
-            | Self::Rows
-            | Self::NumberRows
-            | Self::Pair
-            | Self::Words
-            | Self::Force(_)
-            | Self::Range
-            | Self::Numbers
-            | Self::SquareMatrix
-            | Self::Coordinates
-            | Self::Table => false,
-        }
-    }
-
     /// Keys of a section's mass that is given by its parts.
     pub(crate) fn slice_mass_keys() -> Vec<Key> {
         vec![
@@ -255,7 +54,7 @@ impl Shape {
                 "start",
                 Self::Number,
                 "",
-                "value before the first sample, default 0; with `delay` the value before the start, default the expression there",
+                "value before the first sample, zero if it is omitted; with `delay` the value before the start, default the expression there",
             ),
             optional(
                 "numerator",
@@ -343,8 +142,8 @@ impl Shape {
                 "smooth",
                 Self::Flag,
                 "",
-                "of an outline: whether a smooth curve passes through its points, as for a cam; default `false`",
-            ),
+                "of an outline: whether a smooth curve passes through its points, as for a cam",
+            ).or_flag(false),
             optional(
                 "heights",
                 Self::NumberRows,
@@ -359,8 +158,8 @@ impl Shape {
                 "of a plane, body axes: out of the solid half-space; default z",
             ),
             optional("file", Self::Text, "", "of a mesh: an STL or glTF file; path relative to this file"),
-            optional("touches", Self::Flag, "", "whether contacts of the part include it, default `true`"),
-            optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres; default 1"),
+            optional("touches", Self::Flag, "", "whether contacts of the part include it").or_flag(true),
+            optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres").or_number(1.0),
             optional(
                 "position",
                 Self::Vector,
@@ -382,15 +181,14 @@ impl Shape {
                 "N, N m",
                 "friction at rest, not below `coulomb`; default equal",
             ),
-            optional(
-                "stribeck",
-                Self::Positive,
-                "m/s, rad/s",
-                "rate at which the difference is 1/e; default 0.01",
-            ),
-            optional("viscous", Self::NotNegative, "N s/m, N m s/rad", "force per rate besides, default 0"),
-            optional("deflection", Self::Positive, "m, rad", "elastic motion before it slips, default 1e-4"),
-            optional("damping", Self::NotNegative, "N s/m, N m s/rad", "of the elastic motion, default 0"),
+            optional("stribeck", Self::Positive, "m/s, rad/s", "rate at which the difference is 1/e")
+                .or_number(0.01),
+            optional("viscous", Self::NotNegative, "N s/m, N m s/rad", "force per rate besides")
+                .or_number(0.0),
+            optional("deflection", Self::Positive, "m, rad", "elastic motion before it slips")
+                .or_number(1e-4),
+            optional("damping", Self::NotNegative, "N s/m, N m s/rad", "of the elastic motion")
+                .or_number(0.0),
         ]
     }
 
@@ -424,8 +222,41 @@ pub(crate) struct Key {
     pub(crate) required: bool,
     /// Unit, as in `kg/m³`; empty for none.
     pub(crate) unit: &'static str,
-    /// One sentence.
+    /// One sentence, without the default.
     pub(crate) summary: &'static str,
+    /// The value where it is omitted, if that is a constant.
+    pub(crate) default: Option<DefaultValue>,
+}
+
+impl Key {
+    fn or(self, default: DefaultValue) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
+    /// The same with this number as its default.
+    pub(crate) fn or_number(self, value: f64) -> Self {
+        self.or(DefaultValue::Number(value))
+    }
+
+    /// The same with this count as its default.
+    pub(crate) fn or_count(self, value: usize) -> Self {
+        self.or(DefaultValue::Number(value as f64))
+    }
+
+    /// The same with this default.
+    pub(crate) fn or_flag(self, value: bool) -> Self {
+        self.or(DefaultValue::Flag(value))
+    }
+
+    /// The same with this word as its default.
+    pub(crate) fn or_word(self, word: &'static str) -> Self {
+        self.or(DefaultValue::Word(word))
+    }
+
+    /// Its summary with the default.
+    pub(crate) fn meaning(&self) -> String {
+        DefaultValue::in_words(self.default, self.summary)
+    }
 }
 
 /// A key that must be given.
@@ -435,7 +266,7 @@ pub(crate) const fn required(
     unit: &'static str,
     summary: &'static str,
 ) -> Key {
-    Key { name, holds, required: true, unit, summary }
+    Key { name, holds, required: true, unit, summary, default: None }
 }
 
 /// A key that may be omitted.
@@ -445,7 +276,7 @@ pub(crate) const fn optional(
     unit: &'static str,
     summary: &'static str,
 ) -> Key {
-    Key { name, holds, required: false, unit, summary }
+    Key { name, holds, required: false, unit, summary, default: None }
 }
 
 /// A choice among fixed words.
@@ -459,6 +290,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Number => Shape::Number,
         ParameterType::Positive => Shape::Positive,
         ParameterType::NotNegative => Shape::NotNegative,
+        ParameterType::Between(low, high) => Shape::Between(low, high),
         ParameterType::Vector => Shape::Vector,
         ParameterType::GlobalVector => Shape::GlobalVector,
         ParameterType::Direction => Shape::Direction,
@@ -477,8 +309,8 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::SquareMatrix => Shape::SquareMatrix,
         ParameterType::Input => Shape::Name("inputs"),
     };
-    let Parameter { name, required, unit, summary, .. } = *parameter;
-    Key { name, holds, required, unit, summary }
+    let Parameter { name, required, unit, summary, default, .. } = *parameter;
+    Key { name, holds, required, unit, summary, default }
 }
 
 /// The key of a port; none if it has no key of its own.
@@ -496,7 +328,7 @@ pub(crate) fn of_port(port: &PortDeclaration) -> Option<Key> {
     };
     let unit = if matches!(holds, Shape::Place | Shape::Places) { "m" } else { "" };
     let PortDeclaration { key: name, required, summary, .. } = *port;
-    Some(Key { name, holds, required, unit, summary })
+    Some(Key { name, holds, required, unit, summary, default: None })
 }
 
 /// Keys of a table.
@@ -516,7 +348,7 @@ pub(crate) fn table_keys() -> Vec<Key> {
             "a text file with named columns; relative to the file that names it",
         ),
         optional("columns", Shape::Words, "", "names of its two columns; default the first two"),
-        optional("interpolation", words, "", "between the rows, default linear"),
+        optional("interpolation", words, "", "between the rows").or_word("linear"),
         optional(
             "extrapolation",
             choice(&["constant", "linear"]),

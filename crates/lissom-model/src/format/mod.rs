@@ -5,3 +5,4 @@ pub(crate) mod part_tables;
 pub(crate) mod suggest;
 pub(crate) mod synonyms;
 pub(crate) mod top_level;
+pub(crate) mod value_types;

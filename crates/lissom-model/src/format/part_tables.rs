@@ -142,19 +142,20 @@ pub(crate) fn initial() -> Vec<Key> {
             "equilibrium",
             Shape::Flag,
             "",
-            "start from static equilibrium under the loads at the start, default false",
-        ),
+            "start from static equilibrium under the loads at the start",
+        ).or_flag(false),
         optional(
             "steady_rotation",
             Shape::Flag,
             "",
-            "start from the relative equilibrium in which the model rotates steadily with its velocities, default false",
-        ),
+            "start from the relative equilibrium in which the model rotates steadily with its velocities",
+        ).or_flag(false),
         optional(
             "follow_drives",
             Shape::Flag,
             "",
-            "beams and superelements without given velocities start with those of their drive, default true; otherwise at rest",
-        ),
+            "beams and superelements without given velocities start with those of their drive, otherwise at rest",
+        )
+        .or_flag(true),
     ]
 }

@@ -1,6 +1,6 @@
 //! Scheme, step size, scaling and limits from the table `[analysis]`.
 
-use lissom_system::schemes::{self, Scheme, SchemeParameters, statics};
+use lissom_system::schemes::{self, Scheme, statics};
 use lissom_system::settings::Limits;
 use lissom_system::settings::Settings;
 use lissom_system::settings::{Controlled, StepControl};
@@ -151,14 +151,8 @@ fn scheme(analysis: &Analysis) -> Result<Scheme, Problem> {
         .as_ref()
         .map_or(("generalized-alpha", analysis.span), |word| (&*word.value, word.span));
     let fault = |error: lissom_mechanics::registry::ParameterError| Problem::error(span, error.to_string());
-    let given = |name: &str| {
-        if analysis.parameters.has(name) {
-            analysis.parameters.number(name).map(Some).map_err(fault)
-        } else {
-            Ok(None)
-        }
-    };
-    let parameters = SchemeParameters { alpha: given("alpha")?, spectral_radius: given("spectral_radius")? };
     let kind = schemes::kind(name).ok_or_else(|| Problem::error(span, format!("unknown scheme `{name}`")))?;
-    (kind.build)(&parameters).map_err(|error| Problem::error(span, error.to_string()))
+    let own = kind.parameters.iter().find(|own| analysis.parameters.has(own.name));
+    let given = own.map(|own| analysis.parameters.number(own.name)).transpose().map_err(fault)?;
+    kind.scheme(given).map_err(|error| Problem::error(span, error.to_string()))
 }

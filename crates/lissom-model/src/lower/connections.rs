@@ -206,7 +206,7 @@ fn with_inputs(
     let mut parameters: Option<Parameters> = None;
     for Parameter { name, .. } in kind.parameters.iter().filter(|own| own.holds == ParameterType::Input) {
         let word = given.word(name).map_err(|error| parameter_problem(component, &error))?;
-        let Some(Argument::Held(held)) = word.and_then(|word| names.signals.get(word)) else {
+        let Some(Argument::Held(held)) = names.signals.get(word) else {
             let message = format!("`{name}` of `{}` names no input", component.name.value);
             return Err(Problem::error(component.span_of(name), message));
         };
@@ -221,7 +221,7 @@ fn ramped(kind: &ElementKind, given: &Parameters, span: (f64, f64)) -> Option<Pa
     let holds_size =
         |parameter: &&Parameter| matches!(parameter.holds, ParameterType::Function | ParameterType::Size);
     for parameter in kind.parameters.iter().filter(holds_size) {
-        let constant = given.function_or(parameter.name, 1.0).ok().filter(|function| function.is_constant());
+        let constant = given.function(parameter.name).ok().filter(|function| function.is_constant());
         if let Some(constant) = constant {
             let ramp: Function = Arc::new(Ramp { value: constant.value(span.0), span });
             parameters.get_or_insert_with(|| given.clone()).insert(parameter.name, Value::Function(ramp));

@@ -172,8 +172,7 @@ pub(super) fn beam_chain(
     names: &Names,
 ) -> Result<BeamChain, Problem> {
     let (mut chain, mut last) = (BeamChain::default(), None::<&Beam>);
-    let orientation =
-        component.parameters.word("orientation").map_err(|error| parameter_problem(component, &error))?;
+    let orientation = component.parameters.word("orientation").ok();
     for reference in &component.attachment.beams {
         let (Some(beam), Some(line)) = (document.beam(&reference.value), names.lines.get(&reference.value))
         else {

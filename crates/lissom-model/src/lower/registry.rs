@@ -2,26 +2,9 @@
 
 use lissom_mechanics::elements::{ElementKind, LOADS, SPRINGS};
 use lissom_mechanics::joints::{self, JointKind};
-use lissom_mechanics::registry::{Parameter, ParameterType};
 use lissom_system::schemes;
 
 use crate::registry::{ChoiceEntry, KindEntry, Registry};
-
-const ALPHA: Parameter =
-    Parameter::optional("alpha", ParameterType::Number, "", "Numerical damping, -1/3 … 0; default -0.1.");
-const SPECTRAL_RADIUS: Parameter = Parameter::optional(
-    "spectral_radius",
-    ParameterType::Number,
-    "",
-    "Spectral radius at infinite frequency, 0 … 1; default 0.8.",
-);
-
-const DECAY: Parameter = Parameter::optional(
-    "spectral_radius",
-    ParameterType::Number,
-    "",
-    "Spectral radius at infinite frequency: 1 preserves energy, 0 (default) annihilates.",
-);
 
 /// The registry of all kinds of the core.
 pub fn registry() -> Registry {
@@ -34,12 +17,7 @@ pub fn registry() -> Registry {
             .map(|kind| ChoiceEntry {
                 name: kind.name,
                 summary: kind.summary,
-                parameters: match kind.name {
-                    "hht" => &[ALPHA],
-                    "energy-decaying" => &[DECAY],
-                    "generalized-alpha" => &[SPECTRAL_RADIUS],
-                    _ => &[],
-                },
+                parameters: kind.parameters,
                 tolerance: kind.tolerance,
             })
             .collect(),

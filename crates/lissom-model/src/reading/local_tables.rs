@@ -21,7 +21,7 @@ pub(crate) fn local_table_keys() -> Vec<Key> {
         optional("tables", Shape::Table, "", "tables for ascending values `at` of the second expression"),
         optional("polar", Shape::Text, "", "a file of AeroDyn or HAWC2 with polars of an aerofoil"),
         optional("coefficient", choice(&COEFFICIENTS), "", "coefficient of the polars: lift, drag or moment"),
-        optional("set", Shape::Count(1, 9999), "", "set of polars in a file of HAWC2; default 1"),
+        optional("set", Shape::Count(1, 9999), "", "set of polars in a file of HAWC2").or_count(1),
     ]);
     keys
 }
@@ -85,7 +85,7 @@ impl Context<'_> {
             return self.fail(file.span, message, "add `coefficient = \"cl\"`, \"cd\" or \"cm\"");
         };
         let column = COEFFICIENTS.iter().position(|own| *own == coefficient.value)? + 1;
-        let set = if reader.has("set") { reader.count("set")?.value } else { 1 };
+        let set = reader.count("set")?.value;
         let interpolation = interpolation_of(reader);
         let text = self.file_text(file, name, what)?;
         let problem = |message: String, help: &str| {

@@ -3,7 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
+use lissom_mechanics::registry::{
+    DefaultValue, Function, Parameter, ParameterType, Parameters, Value as Held,
+};
 use lissom_motion::{Matrix3, Vector3};
 
 use crate::expression::Formula;
@@ -102,9 +104,19 @@ impl<'c, 'a> Reader<'c, 'a> {
         self.keys.iter().find(|known| known.name == key).map_or(&Shape::Number, |known| &known.holds)
     }
 
-    /// A number in the range its key allows.
+    /// The default of a key.
+    fn default(&self, key: &str) -> Option<DefaultValue> {
+        self.keys.iter().find(|known| known.name == key)?.default
+    }
+
+    fn default_number(&self, key: &str) -> Option<Located<f64>> {
+        let Some(DefaultValue::Number(number)) = self.default(key) else { return None };
+        Some(Located::new(number, self.name))
+    }
+
+    /// A number in the range its key allows, or its default.
     pub(crate) fn number(&self, key: &str) -> Option<Located<f64>> {
-        let node = self.node(key)?;
+        let Some(node) = self.node(key) else { return self.default_number(key) };
         let what = self.words(key);
         let value = self.context.number(node, &what)?;
         let wanted = match *self.shape(key) {
@@ -122,9 +134,11 @@ impl<'c, 'a> Reader<'c, 'a> {
         )
     }
 
-    /// A whole number in the range its key allows.
+    /// A whole number in the range its key allows, or its default.
     pub(crate) fn count(&self, key: &str) -> Option<Located<usize>> {
-        let node = self.node(key)?;
+        let Some(node) = self.node(key) else {
+            return self.default_number(key).map(|number| number.map(|number| number as usize));
+        };
         let what = self.words(key);
         let value = self.context.number(node, &what)?;
         let (least, most) = match *self.shape(key) {
@@ -151,8 +165,11 @@ impl<'c, 'a> Reader<'c, 'a> {
         Some(Located::new(text.as_ref(), node.span))
     }
 
-    /// One of the words its key allows.
+    /// One of the words its key allows, or its default.
     pub(crate) fn choice(&self, key: &str) -> Option<Located<&'c str>> {
+        if let (false, Some(DefaultValue::Word(word))) = (self.has(key), self.default(key)) {
+            return Some(Located::new(word, self.name));
+        }
         let text = self.text(key)?;
         let Shape::Choice(known) = self.shape(key) else { return Some(text) };
         if known.contains(&text.value) {
@@ -212,8 +229,11 @@ impl<'c, 'a> Reader<'c, 'a> {
         is_known.then(|| Located::new(name, text.span))
     }
 
-    /// True or false.
+    /// True or false, or the default.
     pub(crate) fn flag(&self, key: &str) -> Option<Located<bool>> {
+        if let (false, Some(DefaultValue::Flag(flag))) = (self.has(key), self.default(key)) {
+            return Some(Located::new(flag, self.name));
+        }
         let node = self.node(key)?;
         let Value::Flag(flag) = &node.value else {
             return self.context.wrong_type(node, &self.words(key), "true or false");
@@ -226,7 +246,9 @@ impl<'c, 'a> Reader<'c, 'a> {
     pub(crate) fn vector(&self, key: &str) -> Option<Located<Vector3>> {
         let shape = self.shape(key);
         let Some(node) = self.node(key) else {
-            let Shape::DirectionOr(axis) = shape else { return None };
+            let Shape::DirectionOr(axis) = shape else {
+                return self.default_number(key).map(|number| number.map(Vector3::repeat));
+            };
             return Some(Located::new(self.context.turned(self.scope, &axis.direction())?, self.name));
         };
         let what = self.words(key);
@@ -294,14 +316,19 @@ impl<'c, 'a> Reader<'c, 'a> {
     }
 
     /// The registered parameters that are given, and the directions that have a default.
-    pub(crate) fn parameters(&self, table: &[Parameter]) -> (Parameters, Vec<(String, Span)>) {
-        let mut parameters = Parameters::new();
+    pub(crate) fn parameters(&self, table: &'static [Parameter]) -> (Parameters, Vec<(String, Span)>) {
+        let mut parameters = Parameters::new().declared(table);
         let mut places = Vec::new();
+        let has_default = |holds: &ParameterType| matches!(holds, ParameterType::DirectionOr(_));
         for Parameter { name, holds, unit, .. } in table {
+            if !self.has(name) && !has_default(holds) {
+                continue;
+            }
             let value = match holds {
-                ParameterType::Number | ParameterType::Positive | ParameterType::NotNegative => {
-                    self.number(name).map(|number| Held::Number(number.value))
-                }
+                ParameterType::Number
+                | ParameterType::Positive
+                | ParameterType::NotNegative
+                | ParameterType::Between(..) => self.number(name).map(|number| Held::Number(number.value)),
                 ParameterType::Vector
                 | ParameterType::GlobalVector
                 | ParameterType::Direction

@@ -19,9 +19,9 @@ pub(crate) fn table_key_in(reader: &Reader<'_, '_>) -> Option<&'static str> {
 
 /// How the table is read between its rows.
 pub(crate) fn interpolation_of(reader: &Reader<'_, '_>) -> Interpolation {
-    match reader.choice("interpolation").map(|word| word.value) {
-        Some("spline") => Interpolation::Spline,
-        Some("monotone") => Interpolation::Monotone,
+    match reader.choice("interpolation").map_or("", |word| word.value) {
+        "spline" => Interpolation::Spline,
+        "monotone" => Interpolation::Monotone,
         _ => Interpolation::Linear,
     }
 }

@@ -7,7 +7,6 @@ use crate::format::part_tables::part_motion;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, tops};
 use crate::format::{suggest, synonyms};
-use crate::reference::manual::words;
 use crate::registry::Registry;
 
 /// A key of a form.
@@ -23,8 +22,8 @@ pub struct FormKey {
     pub unit: &'static str,
     /// Whether it must be given.
     pub required: bool,
-    /// One sentence.
-    pub summary: &'static str,
+    /// One sentence, with the default.
+    pub summary: String,
 }
 
 /// A form of a table, such as one kind of joint; or a table with a single form.
@@ -59,8 +58,10 @@ pub fn forms(registry: &Registry) -> Vec<Form> {
         };
         let form = |tag, word, summary, keys| {
             let about = match &top.holds {
-                Holds::Value(shape) => format!("{} Holds {}.", top.summary, words(shape)),
-                Holds::Values(shape) => format!("{} Each entry is {}.", top.summary, words(shape)),
+                Holds::Value(shape) => format!("{} Holds {}.", top.summary, shape.value_type().words),
+                Holds::Values(shape) => {
+                    format!("{} Each entry is {}.", top.summary, shape.value_type().words)
+                }
                 Holds::Table | Holds::Entries => top.summary.to_owned(),
             };
             let (heading, table) = (heading.clone(), top.name);
@@ -94,8 +95,15 @@ fn of_key(key: &Key) -> FormKey {
         Shape::Choices(words) => words.to_vec(),
         _ => Vec::new(),
     };
-    let Key { name, unit, required, summary, .. } = *key;
-    FormKey { name, holds: words(&key.holds), choices, unit, required, summary }
+    let (Key { name, unit, required, .. }, summary) = (key, key.meaning());
+    FormKey {
+        name,
+        holds: key.holds.value_type().words.into_owned(),
+        choices,
+        unit,
+        required: *required,
+        summary,
+    }
 }
 
 /// Names of the functions of expressions.

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use crate::document::tables::variants;
 use crate::expression::FUNCTION_NAMES;
+use crate::format::keys::Key;
 use crate::format::keys::table_keys;
-use crate::format::keys::{Key, Shape, direction};
 use crate::format::part_tables::part_motion;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, Top, Variants, tops};
@@ -102,10 +102,21 @@ fn of_top(text: &mut String, top: &Top, registry: &Registry) {
     let must = if top.required { " Required." } else { "" };
     match &top.holds {
         Holds::Value(shape) => {
-            line(text, &format!("\n## `{}`\n\n{}{must} Holds {}.", top.name, top.summary, words(shape)));
+            line(
+                text,
+                &format!("\n## `{}`\n\n{}{must} Holds {}.", top.name, top.summary, shape.value_type().words),
+            );
         }
         Holds::Values(shape) => {
-            line(text, &format!("\n## `[{}]`\n\n{} Each entry is {}.", top.name, top.summary, words(shape)));
+            line(
+                text,
+                &format!(
+                    "\n## `[{}]`\n\n{} Each entry is {}.",
+                    top.name,
+                    top.summary,
+                    shape.value_type().words
+                ),
+            );
         }
         Holds::Table => {
             line(text, &format!("\n## `[{}]`\n\n{}{must}", top.name, top.summary));
@@ -175,88 +186,55 @@ fn keys<'k>(text: &mut String, keys: impl Iterator<Item = &'k Key>) {
             text,
             "| `{}` | {} | {} | {must}{} |",
             key.name,
-            words(&key.holds),
+            key.holds.value_type().words,
             key.unit,
-            key.summary
+            key.meaning()
         );
     }
 }
 
-/// Description of a shape.
-pub(crate) fn words(shape: &Shape) -> String {
-    let fixed = match shape {
-        Shape::Text => "a text",
-        Shape::Version => "the number 1",
-        Shape::Number => "a number",
-        Shape::Positive => "a number > 0",
-        Shape::NotNegative => "a number ≥ 0",
-        Shape::Between(least, most) => return format!("a number from {least:.4} to {most}"),
-        Shape::Count(least, most) => return format!("a whole number from {least} to {most}"),
-        Shape::Flag => "`true` or `false`",
-        Shape::Vector | Shape::GlobalVector | Shape::Rotation => "three numbers",
-        Shape::Point => "three numbers, or `{ in = \"part\", at = [x, y, z] }`",
-        Shape::Names => "a list of names of parts",
-        Shape::Entries(table) => return format!("entries as in `[{table}]`"),
-        direction!() => "a direction",
-        Shape::Choice(words) => {
-            let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
-            return quoted.join(", ");
-        }
-        Shape::Choices(words) => {
-            let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
-            return format!("a list of {}", quoted.join(", "));
-        }
-        Shape::Name(table) => return format!("the name of an entry of `[{table}]`"),
-        Shape::Place => "a position",
-        Shape::PlaceOrNode => "a position or a node",
-        Shape::Node => "a node",
-        Shape::Nodes => "a list of nodes",
-        Shape::Function => "a function of time",
-        Shape::FunctionOf(variable) => {
-            return format!("an expression of `{variable}`, or a table of it written as a function of time");
-        }
-        Shape::Equation => "an expression of coordinates of joints, such as `arm.angle`, and of `t`",
-        Shape::Size => "a size",
-        Shape::Formula => "an expression of signals",
-        Shape::Signal => {
-            "an expression of signals, `{ value, sample, start, numerator, denominator }`, or `{ of, table }` with the keys of a table"
-        }
-        Shape::Profile => "a number or an expression of `s`",
-        Shape::Curve => "three expressions of `s`",
-        Shape::Distribution | Shape::SectionDistribution => "three expressions of `s` and `t`",
-        Shape::Axes => "two vectors",
-        Shape::Mass => "a number > 0, or `{ density }`",
-        Shape::Inertia => "three numbers, a 3 x 3 matrix, or a solid",
-        Shape::Solid => "a solid, or a list of solids",
-        Shape::Friction => "`{ coulomb, static, stribeck, viscous, deflection, damping }`",
-        Shape::Latch => "`{ at }`",
-        Shape::Stiffness => "six numbers or a 6 x 6 matrix",
-        Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",
-        Shape::Shear => "a number, two numbers, or a word",
-        Shape::Stations => "a list of tables",
-        Shape::Places => "a list of `{ on, at }`, `at` may be omitted",
-        Shape::Interfaces => "a list of `{ name, at }`",
-        Shape::Rows => "a list of pairs",
-        Shape::NumberRows => "a list of lists of equally many numbers",
-        Shape::Pair => "two numbers",
-        Shape::Words => "two texts",
-        Shape::Force([first, second]) => {
-            return format!("a number, an expression of `{first}` and `{second}`, or a table over `{first}`");
-        }
-        Shape::Range => "two ascending numbers, which may be `-inf` and `inf`",
-        Shape::Numbers => "a list of numbers",
-        Shape::SquareMatrix => "a number, a list of numbers (a diagonal), or a square matrix by rows",
-        Shape::Coordinates => {
-            "a list of coordinates of joints, such as `\"arm.angle\"`, or of joints: all of theirs"
-        }
-        Shape::Table => "a table",
-    };
-    fixed.to_owned()
-}
-
 #[cfg(test)]
 mod tests {
+    use lissom_mechanics::registry::DefaultValue;
+
     use super::*;
+    use crate::format::keys::{Shape, table_keys};
+
+    #[test]
+    fn defaults_are_values_of_their_keys_and_not_prose() {
+        let registry = crate::lower::registry::registry();
+        let all = tops().flat_map(|top| variants(top.name, &registry).all).flat_map(|form| form.keys);
+        let nested = [Shape::drawn_keys(), Shape::friction_keys(), Shape::signal_keys(), table_keys()];
+        let mut found = 0;
+        for key in all.chain(nested.into_iter().flatten()) {
+            let prose = key.summary.split("default").skip(1);
+            let is_number = |rest: &str| {
+                rest.trim_start_matches([':', ' ', '`', '-']).starts_with(|c: char| c.is_ascii_digit())
+            };
+            assert!(!prose.into_iter().any(is_number), "{}: {}", key.name, key.summary);
+            let Some(default) = key.default else { continue };
+            found += 1;
+            assert!(!key.required, "{} is required and has a default", key.name);
+            let fits = match (&key.holds, default) {
+                (Shape::Positive, DefaultValue::Number(number)) => number > 0.0,
+                (Shape::NotNegative, DefaultValue::Number(number)) => number >= 0.0,
+                (Shape::Between(least, most), DefaultValue::Number(number)) => {
+                    (*least..=*most).contains(&number)
+                }
+                (Shape::Count(least, most), DefaultValue::Number(number)) => {
+                    number.fract() == 0.0 && (*least as f64..=*most as f64).contains(&number)
+                }
+                (Shape::Choice(words), DefaultValue::Word(word)) => words.contains(&word),
+                (Shape::Flag, DefaultValue::Flag(_)) => true,
+                (holds, DefaultValue::Number(_)) => {
+                    !matches!(holds, Shape::Flag | Shape::Choice(_) | Shape::Text)
+                }
+                _ => false,
+            };
+            assert!(fits, "{}: {default} is not {}", key.name, key.holds.value_type().words);
+        }
+        assert!(found > 80, "only {found} keys have a default");
+    }
 
     #[test]
     fn every_word_of_the_format_is_in_the_manual() {

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::document::tables::variants;
-use crate::format::keys::{Key, Shape, direction, three_numbers};
+use crate::format::keys::{Key, Shape};
 use crate::format::part_tables::part_motion;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, Top, Variant, tops};
-use crate::reference::manual::words;
 use crate::registry::Registry;
 
 /// The files by name without extension, with the tables of their entries.
@@ -120,8 +119,8 @@ fn class(
         let about = format!(
             "{}: {}{unit}; {}{must}.",
             identifier(key.name),
-            key.summary.trim_end_matches('.'),
-            words(&key.holds)
+            key.meaning().trim_end_matches('.'),
+            key.holds.value_type().words
         );
         let _ = writeln!(text, "        {}", about.replace('\\', "\\\\"));
     }
@@ -136,57 +135,13 @@ fn class(
         text.push('\n');
     }
     for key in &own {
-        let holds = type_of(&key.holds);
-        let rest = if key.required { holds } else { format!("{holds} | None = None") };
+        let holds = key.holds.value_type().python;
+        let rest = if key.required { holds.into_owned() } else { format!("{holds} | None = None") };
         let _ = writeln!(text, "    {}: {rest}", identifier(key.name));
     }
     if word == "initial" {
         text.push_str("    motions: dict[str, PartMotion] | None = None\n");
     }
-}
-
-/// Type of a key.
-fn type_of(shape: &Shape) -> String {
-    let literal = |words: &[&str]| {
-        let quoted: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
-        format!("Literal[{}]", quoted.join(", "))
-    };
-    let fixed = match shape {
-        Shape::Choice(words) => return literal(words),
-        Shape::Choices(words) => return format!("list[{}]", literal(words)),
-        Shape::Text | Shape::Name(_) | Shape::Node => "str",
-        Shape::Nodes => "list[str]",
-        Shape::Version | Shape::Count(..) => "Count",
-        Shape::Number
-        | Shape::Positive
-        | Shape::NotNegative
-        | Shape::Between(..)
-        | Shape::Equation
-        | Shape::Formula
-        | Shape::Profile => "Number",
-        Shape::Flag => "bool",
-        three_numbers!(Shape::Pair, Shape::Numbers, Shape::Range) => "Vector",
-        direction!() => "Vector | str",
-        Shape::Point => "Vector | Table",
-        Shape::Names | Shape::Words | Shape::Coordinates => "Names",
-        Shape::Place | Shape::PlaceOrNode => "Place",
-        Shape::Function
-        | Shape::FunctionOf(_)
-        | Shape::Size
-        | Shape::Force(_)
-        | Shape::Signal
-        | Shape::Mass => "Function",
-        Shape::Axes | Shape::Rows | Shape::NumberRows => "list[Vector]",
-        Shape::Stiffness => "Vector | list[Vector]",
-        Shape::SquareMatrix => "Number | Vector | list[Vector]",
-        Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
-        Shape::Shear => "Number | Vector",
-        Shape::Stations | Shape::Places | Shape::Interfaces => "list[Table]",
-        Shape::Friction | Shape::Latch | Shape::Table => "Table",
-        Shape::Solid => "Table | list[Table]",
-        Shape::Entries(_) => "Tables",
-    };
-    fixed.to_owned()
 }
 
 /// Base class of `Model`: a property for every key at the top level of a model file.

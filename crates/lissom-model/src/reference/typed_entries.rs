@@ -8,6 +8,7 @@ use crate::document::tables::variants;
 use crate::format::keys::{Key, Shape};
 use crate::format::part_tables::part_motion;
 use crate::format::top_level::Variant;
+use crate::format::value_types::RustType;
 use crate::registry::Registry;
 
 /// A table and the type of its ids.
@@ -220,61 +221,21 @@ fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mu
 
 /// Rust type of a key; none for those that are not used in code.
 fn type_of(key: &Key, words: &mut Words) -> Option<String> {
-    let fixed = match &key.holds {
+    match key.holds.value_type().rust {
         // Code has functions for the placement of parts in each other.
-        Shape::Text if key.name == "in" => return None,
+        _ if key.holds == Shape::Text && key.name == "in" => None,
         // A signal, an input or a state.
-        Shape::Text if key.name == "of" => "Quantity",
-        Shape::Text => "String",
-        Shape::Version
-        | Shape::Entries(_)
-        | Shape::Rows
-        | Shape::NumberRows
-        | Shape::Words
-        | Shape::Table => return None,
-        Shape::Number | Shape::Positive | Shape::NotNegative | Shape::Between(..) => "f64",
-        Shape::Count(..) => "usize",
-        Shape::Flag => "bool",
-        Shape::Vector
-        | Shape::GlobalVector
-        | Shape::Rotation
-        | Shape::Point
-        | Shape::Place
-        | Shape::Direction
-        | Shape::DirectionOr(_)
-        | Shape::BodyDirection => "[f64; 3]",
-        Shape::Names => "Vec<Part>",
-        Shape::Choice(known) => return Some(format!("words::{}", word_type(key, known, words))),
-        Shape::Choices(known) => return Some(format!("Vec<words::{}>", word_type(key, known, words))),
-        Shape::FunctionOf(_) | Shape::Function | Shape::Size | Shape::Force(_) | Shape::Profile => "Function",
-        Shape::Equation | Shape::Formula | Shape::Signal => "Expression",
-        Shape::Name("inputs") => "InputId",
-        Shape::Name(table) => {
+        _ if key.holds == Shape::Text && key.name == "of" => Some("Quantity".to_owned()),
+        RustType::Fixed(fixed) => Some(fixed.to_owned()),
+        RustType::Words(known) => Some(format!("words::{}", word_type(key, &known, words))),
+        RustType::ListOfWords(known) => Some(format!("Vec<words::{}>", word_type(key, &known, words))),
+        RustType::Id("inputs") => Some("InputId".to_owned()),
+        RustType::Id(table) => {
             let mut known = FILES.iter().flat_map(|(_, _, tables)| *tables);
-            return known.find(|(name, _)| name == table).map(|(_, id)| (*id).to_owned());
+            known.find(|(name, _)| *name == table).map(|(_, id)| (*id).to_owned())
         }
-        Shape::PlaceOrNode => "PositionOrNode",
-        Shape::Node => "Node",
-        Shape::Nodes => "Vec<Node>",
-        Shape::Curve | Shape::Distribution | Shape::SectionDistribution => "[Expression; 3]",
-        Shape::Axes => "[[f64; 3]; 2]",
-        Shape::Mass => "Mass",
-        Shape::Inertia => "Inertia",
-        Shape::Solid => "Solid",
-        Shape::Friction => "Friction",
-        Shape::Latch => "Latch",
-        Shape::Stiffness => "Matrix",
-        Shape::SectionMass => "SectionMass",
-        Shape::Shear => "Shear",
-        Shape::Stations => "Vec<(f64, SectionId)>",
-        Shape::Places => "Vec<(Node, PositionOrNode)>",
-        Shape::Interfaces => "Vec<(String, [f64; 3])>",
-        Shape::Pair | Shape::Range => "[f64; 2]",
-        Shape::Numbers => "Vec<f64>",
-        Shape::SquareMatrix => "Vec<Vec<f64>>",
-        Shape::Coordinates => "Vec<JointId>",
-    };
-    Some(fixed.to_owned())
+        RustType::Absent => None,
+    }
 }
 
 /// Name of the type for the words of a key.
@@ -357,7 +318,8 @@ fn identifier(key: &str) -> &str {
 /// Meaning of a key, with its unit.
 fn about(key: &Key) -> String {
     let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
-    let summary = key.summary.trim_end_matches('.');
+    let meaning = key.meaning();
+    let summary = meaning.trim_end_matches('.');
     escaped(&format!("{summary}{unit}"))
 }
 

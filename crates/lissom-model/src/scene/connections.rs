@@ -108,7 +108,7 @@ pub(super) fn springs(document: &Document, places: &Places<'_>) -> Vec<Spring> {
 /// Free length of a spring that transmits tension alone.
 fn cable(component: &Component, places: &Places<'_>, anchors: Option<[Anchor; 2]>) -> Option<f64> {
     let parameters = &component.parameters;
-    if component.kind.value != "point" || parameters.word("side").ok().flatten() != Some("tension") {
+    if component.kind.value != "point" || parameters.word("side").ok() != Some("tension") {
         return None;
     }
     let [a, b] = anchors?.map(|end| places.frame(end.node).transform_point(&Vector3::from(end.position)));
@@ -127,14 +127,14 @@ pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
         }
         let anchor = places.anchor(on, at)?;
         let parameters = &component.parameters;
-        let follower = parameters.flag_or("follower", false).unwrap_or(false);
+        let follower = parameters.flag("follower").unwrap_or(false);
         let vector = parameters.vector("vector").ok().map(|vector| {
             let frame = places.frame(anchor.node);
             if follower { frame.rotation.apply_inverse(&vector) } else { vector }.into()
         });
         let at = |k: u32| start + (end - start) * f64::from(k) / f64::from(SAMPLES);
         let scale = parameters
-            .function_or("scale", 1.0)
+            .function("scale")
             .map_or_else(|_| Vec::new(), |function| (0..=SAMPLES).map(|k| function.value(at(k))).collect());
         Some(Load {
             name: component.name.value.clone(),

@@ -44,7 +44,7 @@ fn disc(
 ) -> Option<Vec<(Anchor, Vec<Solid>)>> {
     let [(base, normal), (wheel, axes)] = ends.first_chunk::<2>()?;
     let parameters = &component.parameters;
-    let rim = parameters.number_or("rim", 0.0).ok()?;
+    let rim = parameters.number("rim").ok()?;
     // By default the wheel touches the plane at the start.
     let up = match parameters.vector("normal") {
         Ok(normal) => normal.normalize(),
@@ -82,7 +82,7 @@ fn wheel_and_rail(
     let above =
         (position(places, wheel_at) - position(places, rail_at)).dot(&global(places, rail_at, &rail.0[1]));
     let radius = parameters.number_or("radius", above.abs()).ok()?;
-    let cone = parameters.number_or("cone_angle", 0.0).ok()?;
+    let cone = parameters.number("cone_angle").ok()?;
     let head = parameters.number_or("head_radius", 0.5 * radius).ok()?;
     let cant = parameters.number_or("cant", cone).ok()?;
     let [inner, outer] = parameters.range("tread").ok()?.map_or([-0.2 * radius, 0.2 * radius], |range| range);

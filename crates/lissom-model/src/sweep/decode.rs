@@ -53,14 +53,15 @@ fn keys() -> Vec<Key> {
     vec![
         required("lissom_sweep", Shape::Version, "", "version of the format of sweep files"),
         optional("model", Shape::Text, "", "path of the model file, relative to this file"),
-        optional("sampling", choice(&WORDS), "", "how values are combined or drawn, default grid"),
+        optional("sampling", choice(&WORDS), "", "how values are combined or drawn")
+            .or_word(SAMPLINGS[0].name),
         optional(
             "members",
             Shape::Count(1, MAX_MEMBERS),
             "",
             "number of members, for random and quasi-random sampling",
         ),
-        optional("seed", Shape::Count(0, 1 << 53), "", "start of the random numbers, default 0"),
+        optional("seed", Shape::Count(0, 1 << 53), "", "start of the random numbers").or_count(0),
         optional("set", Shape::Table, "", "paths of the model and the value each has in all members"),
         required("vary", Shape::Table, "", "paths of the model and the values of each"),
         required("collect", Shape::Table, "", "scalars to be collected by name, such as max(tip.u2)"),
@@ -71,9 +72,9 @@ fn keys() -> Vec<Key> {
 fn decode(context: &Context<'_>, root: &Node) -> Option<SweepFile> {
     let reader = Reader::open(context, root, ("the sweep".to_owned(), Span::default()), keys())?;
     version(context, &reader)?;
-    let word = reader.choice("sampling").map_or(SAMPLINGS[0].name, |word| word.value);
+    let word = reader.choice("sampling")?.value;
     let sampling = SAMPLINGS.iter().find(|kind| kind.name == word)?;
-    let seed = reader.count("seed").map_or(0, |seed| seed.value as u64);
+    let seed = reader.count("seed")?.value as u64;
     let set = set(context, &reader);
     let vary = vary(context, &reader, sampling)?;
     let collect = collect(context, &reader)?;
@@ -210,11 +211,11 @@ fn variation(context: &Context<'_>, (path, span): (&str, Span), node: &Node) -> 
         required("from", Shape::Number, "", "the first value"),
         required("to", Shape::Number, "", "the last value"),
         optional("count", Shape::Count(2, MAX_MEMBERS), "", "number of values, for grids and lists"),
-        optional("spacing", choice(&["linear", "logarithmic"]), "", "default linear"),
+        optional("spacing", choice(&["linear", "logarithmic"]), "", "between the values").or_word("linear"),
     ])?;
     let (from, to) = (reader.number("from"), reader.number("to"));
     let count = reader.count("count").map(|count| count.value);
-    let logarithmic = reader.choice("spacing").is_some_and(|word| word.value == "logarithmic");
+    let logarithmic = reader.choice("spacing")?.value == "logarithmic";
     let (from, to) = (from?, to?);
     if from.value == to.value {
         let help = "write two different numbers, or a fixed value below [set]";

@@ -22,7 +22,7 @@ const fn choice(name: &'static str, parameters: &'static [Parameter]) -> ChoiceE
 }
 
 const ANGLE: &[Parameter] =
-    &[Parameter::optional("angle", ParameterType::Number, "rad", "initial angle, default 0")];
+    &[Parameter::optional("angle", ParameterType::Number, "rad", "initial angle").or_number(0.0)];
 const TURN: &[Parameter] =
     &[Parameter::required("rotation", ParameterType::Function, "rad", "relative rotation")];
 const POINT: &[Parameter] = &[
@@ -37,13 +37,13 @@ const TORSIONAL: &[Parameter] = &[
 ];
 const LOAD: &[Parameter] = &[
     Parameter::required("vector", ParameterType::GlobalVector, "N or N m", "direction and size"),
-    Parameter::optional("scale", ParameterType::Function, "", "factor in time, default 1"),
-    Parameter::optional("follower", ParameterType::Flag, "", "whether it turns with the node"),
+    Parameter::optional("scale", ParameterType::Function, "", "factor in time").or_number(1.0),
+    Parameter::optional("follower", ParameterType::Flag, "", "whether it turns with the node").or_flag(false),
 ];
 const ALPHA: &[Parameter] =
-    &[Parameter::optional("alpha", ParameterType::Number, "", "from -1/3 to 0, default -0.3")];
+    &[Parameter::optional("alpha", ParameterType::Between(-1.0 / 3.0, 0.0), "", "damping").or_number(-0.3)];
 const RADIUS: &[Parameter] =
-    &[Parameter::optional("spectral_radius", ParameterType::Number, "", "from 0 to 1, default 0.8")];
+    &[Parameter::optional("spectral_radius", ParameterType::Between(0.0, 1.0), "", "damping").or_number(0.8)];
 
 /// Kinds as the model files of the tests use them.
 pub(crate) fn registry() -> Registry {

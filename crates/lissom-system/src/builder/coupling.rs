@@ -24,7 +24,7 @@ impl Builder {
             return Err(ParameterError::new("kind", "is between two nodes"));
         };
         self.model.check_quantity(coordinate, wanted)?;
-        let prescribed = Prescribed { coordinate, value: build(parameters)? };
+        let prescribed = Prescribed { coordinate, value: build(&parameters.declared(kind.parameters))? };
         self.constraints.drives.push(Drive {
             name: name.to_owned(),
             prescribed,
@@ -49,7 +49,7 @@ impl Builder {
         let Build::Free(build) = kind.build else {
             return Err(ParameterError::new("kind", "has no coordinates of its own"));
         };
-        let free = build(parameters)?;
+        let free = build(&parameters.declared(kind.parameters))?;
         let numbered = |k: usize| if free.len() > 1 { (k + 1).to_string() } else { String::new() };
         let coordinates = free.iter().enumerate().map(|(k, own)| Coordinate {
             name: format!("{name}.{}{}", own.coordinate.name, numbered(k)),
@@ -86,7 +86,7 @@ impl Builder {
             return Err(ParameterError::new("other", "names the same coordinate as `joint`"));
         }
         let start: Vec<f64> = coordinates.iter().map(|&k| self.model.coordinates[k].value).collect();
-        let relation = build(parameters, &start)?;
+        let relation = build(&parameters.declared(kind.parameters), &start)?;
         let quantities: Vec<Quantity> =
             coordinates.iter().map(|&k| self.model.coordinates[k].quantity).collect();
         let quantity =

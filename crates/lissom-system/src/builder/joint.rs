@@ -84,9 +84,10 @@ impl Builder {
                 let [(tip, Some(at))] = attachment.nodes[..] else {
                     return Err(ParameterError::new("tip", "must name one node"));
                 };
+                let parameters = parameters.declared(kind.parameters);
                 let orientation = match parameters.word("orientation")? {
-                    Some("tangent") => Orientation::Tangent,
-                    Some("section") => Orientation::Section(sections),
+                    "tangent" => Orientation::Tangent,
+                    "section" => Orientation::Section(sections),
                     _ => Orientation::Free,
                 };
                 let added = self.add_slider(name, (nodes, arc_lengths), (tip, at), &orientation);

@@ -14,6 +14,7 @@
 
 use super::collocation::collocation;
 use super::scheme::{Scheme, SchemeError, SchemeKind, Tableau, within};
+use lissom_mechanics::registry::{Parameter, ParameterType};
 
 /// The energy is bounded for the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step
 /// of 0.1 ms.
@@ -24,7 +25,14 @@ pub const KIND: SchemeKind = SchemeKind {
     name: "energy-decaying",
     summary: "Energy decaying: third order, energy never increases, damping set by the spectral radius.",
     tolerance: Some(TOLERANCE),
-    build: |parameters| with_spectral_radius(parameters.spectral_radius.unwrap_or(0.0)),
+    parameters: &[Parameter::optional(
+        "spectral_radius",
+        ParameterType::Between(0.0, 1.0),
+        "",
+        "Spectral radius at infinite frequency: 1 preserves energy, 0 annihilates.",
+    )
+    .or_number(0.0)],
+    build: with_spectral_radius,
 };
 
 /// The scheme with spectral radius `rho` at infinite frequency: 1 preserves energy, 0 annihilates.

@@ -11,16 +11,27 @@
 //! Equilibrium and constraints hold at the end of the step.
 
 use super::scheme::{
-    Combination, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeError, SchemeKind, SchemeParameters,
-    Stage, Weights, within,
+    Combination, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeError, SchemeKind, Stage, Weights,
+    within,
 };
+use lissom_mechanics::registry::{Parameter, ParameterType};
+
+/// Range of α in which HHT-α is unconditionally stable and of second order.
+const ALPHAS: (f64, f64) = (-1.0 / 3.0, 0.0);
 
 /// Registry entry of generalized-α.
 pub const KIND: SchemeKind = SchemeKind {
     name: "generalized-alpha",
     summary: "Generalized-α: second order, numerical damping set by the spectral radius.",
     tolerance: None,
-    build: |parameters| with_spectral_radius(parameters.spectral_radius.unwrap_or(0.8)),
+    parameters: &[Parameter::optional(
+        "spectral_radius",
+        ParameterType::Between(0.0, 1.0),
+        "",
+        "Spectral radius at infinite frequency.",
+    )
+    .or_number(0.8)],
+    build: with_spectral_radius,
 };
 
 /// Registry entry of HHT-α.
@@ -28,7 +39,14 @@ pub const HHT_KIND: SchemeKind = SchemeKind {
     name: "hht",
     summary: "HHT-α: second order, numerical damping set by α in -1/3 … 0.",
     tolerance: None,
-    build: |parameters: &SchemeParameters| hht(parameters.alpha.unwrap_or(-0.1)),
+    parameters: &[Parameter::optional(
+        "alpha",
+        ParameterType::Between(ALPHAS.0, ALPHAS.1),
+        "",
+        "Numerical damping.",
+    )
+    .or_number(-0.1)],
+    build: hht,
 };
 
 /// Second order with the spectral radius `rho` in 0 … 1 at infinite frequency.
@@ -49,7 +67,7 @@ pub fn with_spectral_radius(rho: f64) -> Result<Scheme, SchemeError> {
 /// # Errors
 /// If `alpha` is out of range.
 pub fn hht(alpha: f64) -> Result<Scheme, SchemeError> {
-    let alpha = within("alpha", alpha, (-1.0 / 3.0, 0.0))?;
+    let alpha = within("alpha", alpha, ALPHAS)?;
     Ok(new(format!("hht (alpha {alpha})"), 0.0, -alpha))
 }
 

@@ -15,7 +15,7 @@ pub mod statics;
 pub use dense_polynomial::DensePolynomial;
 pub use scheme::{
     Combination, Coupling, Decoupled, ErrorEstimate, MAX_STAGES, Parametrization, Scheme, SchemeError,
-    SchemeKind, SchemeParameters, Stage, StageSystem, Tableau, Weights,
+    SchemeKind, Stage, StageSystem, Tableau, Weights,
 };
 
 /// All schemes for dynamics, one line each; the first is the default with steps of given size.

@@ -19,6 +19,7 @@ pub const KIND: SchemeKind = SchemeKind {
     name: "radau-iia",
     summary: "Two-stage Radau IIA: third order, strongly damping.",
     tolerance: None,
+    parameters: &[],
     build: |_| Ok(two_stages()),
 };
 
@@ -27,6 +28,7 @@ pub const FIFTH_ORDER_KIND: SchemeKind = SchemeKind {
     name: "radau-iia-5",
     summary: "Three-stage Radau IIA: fifth order, strongly damping; for adaptive steps and small errors.",
     tolerance: None,
+    parameters: &[],
     build: |_| Ok(three_stages()),
 };
 
@@ -35,6 +37,7 @@ pub const NINTH_ORDER_KIND: SchemeKind = SchemeKind {
     name: "radau-iia-9",
     summary: "Five-stage Radau IIA: ninth order, strongly damping; for smooth motions with very small errors.",
     tolerance: None,
+    parameters: &[],
     build: |_| Ok(five_stages()),
 };
 
@@ -43,6 +46,7 @@ pub const THIRTEENTH_ORDER_KIND: SchemeKind = SchemeKind {
     name: "radau-iia-13",
     summary: "Seven-stage Radau IIA: thirteenth order, strongly damping; for smooth motions with errors near round-off.",
     tolerance: None,
+    parameters: &[],
     build: |_| Ok(seven_stages()),
 };
 

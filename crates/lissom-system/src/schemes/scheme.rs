@@ -5,6 +5,7 @@ use num_complex::Complex64;
 
 use super::dense_polynomial::DensePolynomial;
 use lissom_mechanics::kinematics::step_stages::STAGES;
+use lissom_mechanics::registry::{DefaultValue, Parameter};
 
 /// Maximum number of stages of a scheme.
 pub const MAX_STAGES: usize = 7;
@@ -209,15 +210,6 @@ impl Scheme {
     }
 }
 
-/// Parameters that a scheme accepts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SchemeParameters {
-    /// α of HHT-α, -1/3 … 0.
-    pub alpha: Option<f64>,
-    /// Spectral radius at infinite frequency, 0 … 1.
-    pub spectral_radius: Option<f64>,
-}
-
 /// A parameter out of range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("`{parameter}` = {value} is outside {lowest} … {highest}")]
@@ -241,8 +233,24 @@ pub struct SchemeKind {
     pub summary: &'static str,
     /// Default tolerance of Newton's iterations, if the scheme needs its own.
     pub tolerance: Option<f64>,
-    /// Builds the scheme.
-    pub build: fn(&SchemeParameters) -> Result<Scheme, SchemeError>,
+    /// Its parameter, if it has one, with its default.
+    pub parameters: &'static [Parameter],
+    /// Builds the scheme of the parameter.
+    pub build: fn(f64) -> Result<Scheme, SchemeError>,
+}
+
+impl SchemeKind {
+    /// The scheme of the parameter, or of its default.
+    ///
+    /// # Errors
+    /// If the parameter is out of range.
+    pub fn scheme(&self, given: Option<f64>) -> Result<Scheme, SchemeError> {
+        let default = match self.parameters {
+            [Parameter { default: Some(DefaultValue::Number(default)), .. }] => *default,
+            _ => 0.0,
+        };
+        (self.build)(given.unwrap_or(default))
+    }
 }
 
 /// Returns `value` if it is between the limits.

@@ -198,11 +198,11 @@ impl Catalogue<'_> {
         let parameter = |name: &str, holds: &str, unit: &str, required: bool, summary: &str| json!({ "name": name, "holds": holds, "unit": unit, "required": required, "summary": summary });
         let of_form = |form: &Form| -> Value {
             let keys = form.keys.iter();
-            keys.map(|key| parameter(key.name, &key.holds, key.unit, key.required, key.summary)).collect()
+            keys.map(|key| parameter(key.name, &key.holds, key.unit, key.required, &key.summary)).collect()
         };
         let list = |own: &[Parameter]| -> Value {
             let own = own.iter();
-            own.map(|own| parameter(own.name, &holds(own.holds), own.unit, own.required, own.summary))
+            own.map(|own| parameter(own.name, &holds(own.holds), own.unit, own.required, &own.meaning()))
                 .collect()
         };
         let mut all = json!({});
@@ -315,6 +315,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Number => "number".to_owned(),
         ParameterType::Positive => "positive number".to_owned(),
         ParameterType::NotNegative => "number, not negative".to_owned(),
+        ParameterType::Between(low, high) => format!("number from {low:.4} to {high}"),
         ParameterType::Vector | ParameterType::GlobalVector => "three numbers".to_owned(),
         ParameterType::Direction | ParameterType::DirectionOr(_) => "direction".to_owned(),
         ParameterType::Flag => "true or false".to_owned(),

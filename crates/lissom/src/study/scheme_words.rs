@@ -1,7 +1,6 @@
 //! Schemes in lists on the command line: the name in the model file, with the parameter in parentheses.
 
-use lissom_core::schemes::{self, Scheme, SchemeParameters};
-use lissom_model::lower::registry::registry;
+use lissom_core::schemes::{self, Scheme};
 
 use super::StudyError;
 
@@ -20,22 +19,14 @@ pub(super) fn scheme_of(text: &str) -> Result<Scheme, StudyError> {
             (word.trim_end(), Some(number))
         }
     };
-    let registry = registry();
-    let (Some(kind), Some(entry)) =
-        (schemes::kind(word), registry.schemes.iter().find(|entry| entry.name == word))
-    else {
+    let Some(kind) = schemes::kind(word) else {
         let known: Vec<_> = schemes::KINDS.iter().map(|kind| kind.name).collect();
         return Err(wrong(format!("schemes are {}", known.join(", "))));
     };
-    let mut parameters = SchemeParameters::default();
-    if let Some(value) = parameter {
-        match entry.parameters.first().map(|parameter| parameter.name) {
-            Some("alpha") => parameters.alpha = Some(value),
-            Some("spectral_radius") => parameters.spectral_radius = Some(value),
-            _ => return Err(wrong("it takes no parameter".to_owned())),
-        }
+    if parameter.is_some() && kind.parameters.is_empty() {
+        return Err(wrong("it takes no parameter".to_owned()));
     }
-    (kind.build)(&parameters).map_err(|error| wrong(error.to_string()))
+    kind.scheme(parameter).map_err(|error| wrong(error.to_string()))
 }
 
 #[cfg(test)]

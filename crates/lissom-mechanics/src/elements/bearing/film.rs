@@ -58,8 +58,9 @@ pub(crate) const KIND: ElementKind = ElementKind {
             "film",
             ParameterType::Choice(&FILMS),
             "",
-            "Film where the pressure is positive (\"ruptured\", default), or everywhere (\"full\").",
-        ),
+            "Film where the pressure is positive (\"ruptured\"), or everywhere (\"full\").",
+        )
+        .or_word(FILMS[0]),
         AXIS,
     ],
     ports: Ports::TWO_FRAMES,
@@ -90,7 +91,7 @@ fn build(
     let film = Film {
         clearance,
         factor: viscous * length.powi(3) / clearance.powi(2),
-        is_full: parameters.word("film")? == Some(FILMS[1]),
+        is_full: parameters.word("film")? == FILMS[1],
     };
     let first = parameters.vector_or("axis", ModelAxis::X.direction())?;
     // The film is the same in all directions across the shaft.

@@ -23,14 +23,14 @@ pub(crate) const KIND: ElementKind = ElementKind {
             ParameterType::SquareMatrix,
             "N/m, N, N m/rad",
             "For displacements across the shaft (2 x 2), along it and across (3 x 3), across with rotations about both axes (4 x 4), or all \
-            (5 x 5); a number is for both directions across; default 0.",
-        ),
+            (5 x 5); a number is for both directions across.",
+        ).or_number(0.0),
         Parameter::optional(
             "damping",
             ParameterType::SquareMatrix,
             "N s/m, N s, N m s/rad",
-            "As `stiffness`; default 0.",
-        ),
+            "As `stiffness`.",
+        ).or_number(0.0),
         coefficient(
             "k22",
             "N/m",

@@ -22,12 +22,12 @@ class Contact(Entry):
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
         material: instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz; the name of an entry of `[materials]`, or nothing.
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
-        restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, default 0; a number from 0.0000 to 1, or nothing.
-        rest_velocity: slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires `restitution` or `rigid` [m/s]; a number > 0, or nothing.
-        restitution_law: how the dissipation follows from `restitution`; default "exact", the others for comparison with publications; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
+        restitution: velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; of rigid contacts from 0 to 1, and 0 if it is omitted; a number from 0 to 1, or nothing.
+        rest_velocity: slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; requires `restitution` or `rigid`; default 1e-3 [m/s]; a number > 0, or nothing.
+        restitution_law: how the dissipation follows from `restitution`; those other than "exact" are for comparison with publications; default `"exact"`; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
-        static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
+        static_friction: coefficient at rest, not below `friction`; default: that of `friction`; a number > 0, or nothing.
         stribeck: sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 [m/s]; a number > 0, or nothing.
         deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
         rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
@@ -69,7 +69,7 @@ class Ground(Entry):
     """Solids that are fixed in space, for contacts and drawings.
 
     Args:
-        shape: solids, in global axes; the default position is the origin; a solid, or a list of solids, or nothing.
+        shape: solids, in global axes; by default at the origin; a solid, or a list of solids, or nothing.
         mesh: instead of `shape`: an STL or glTF file in metres, drawn only; a text, or nothing.
     """
 

@@ -15,7 +15,7 @@ class State(Entry):
 
     Args:
         derivative: time derivative [1/s]; an expression of signals.
-        start: value at the start, default 0; a number, or nothing.
+        start: value at the start; default 0; a number, or nothing.
         magnitude: typical magnitude, relative to which errors are measured unless its value is larger; default 1; a number > 0, or nothing.
     """
 
@@ -32,8 +32,8 @@ class Event(Entry):
 
     Args:
         zero_of: the event occurs when this expression crosses zero; an expression of signals.
-        direction: direction of the crossing, default `both`; `"both"`, `"rising"`, `"falling"`, or nothing.
-        stop: whether the run ends at the event, default `false`; `true` or `false`, or nothing.
+        direction: direction of the crossing; default `"both"`; `"both"`, `"rising"`, `"falling"`, or nothing.
+        stop: whether the run ends at the event; default `false`; `true` or `false`, or nothing.
         set: inputs to be changed by the event, with expressions of their new values; a table, or nothing.
     """
 

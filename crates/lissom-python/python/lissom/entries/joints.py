@@ -200,7 +200,7 @@ class Gear(Joint):
         ratio: Change of the dependent coordinate per change of the independent one; negative for external gears [1, m/rad or rad/m]; a number.
         coordinate: Number of the coordinate of `joint`, from 1; may be omitted if there is only one; a number > 0, or nothing.
         other_coordinate: Number of the coordinate of `other`, from 1; may be omitted if there is only one; a number > 0, or nothing.
-        relative: Whether it is meant to relate rotations relative to parts that turn against each other; default false: warned about; `true` or `false`, or nothing.
+        relative: Whether it is meant to relate rotations relative to parts that turn against each other, which is warned about otherwise; default `false`; `true` or `false`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -228,7 +228,7 @@ class GeneralizedCoordinates(Joint):
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         start: Values at the start: as many as there are coordinates [m or rad]; a list of numbers.
         rate: Rates at the start, as many as in `start`; default zeros [m/s or rad/s]; a list of numbers, or nothing.
-        rotations: Whether they are rotations [rad]; default false: displacements [m]; `true` or `false`, or nothing.
+        rotations: Whether they are rotations [rad] instead of displacements [m]; default `false`; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "generalized_coordinates"
@@ -664,9 +664,9 @@ class Rolling(Joint):
         axis: direction at the start, global axes; a direction.
         wheel_axis: Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre; a direction.
         radius: Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` [m]; a number ≥ 0, or nothing.
-        rim: Rounding radius of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
+        rim: Rounding radius of the rim; zero for a sharp edge; default 0 [m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of friction; a warning reports when rolling requires more; default: no limit; a number > 0, or nothing.
-        creep: Sliding velocity per force, a linear law of creep; default 0: no sliding. Makes the forces of several wheels on one axle, which constrain each other, unique [m/(N s)]; a number ≥ 0, or nothing.
+        creep: Sliding velocity per force, a linear law of creep. It makes the forces of several wheels on one axle, which constrain each other, unique; default 0 [m/(N s)]; a number ≥ 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -737,7 +737,7 @@ class Slider(Joint):
         beams: beams along which it slides; each starts at the end of the previous one; a list of names of parts.
         tip: the node that slides; a node.
         at: location on the beam at the start; default: the tip node's position [m]; a position, or nothing.
-        orientation: Rotation of the tip: "free" (default); with the line's "tangent", about which it rotates freely; or with the beam's "section", as on a spline shaft; `"free"`, `"tangent"`, `"section"`, or nothing.
+        orientation: Rotation of the tip: "free"; with the line's "tangent", about which it rotates freely; or with the beam's "section", as on a spline shaft; default `"free"`; `"free"`, `"tangent"`, `"section"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -906,7 +906,7 @@ class WheelOnRail(Joint):
         ellipse: Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the nominal curvatures; a list of numbers, or nothing.
         velocity: Velocity of the base along the rail in global axes, for models in axes that move with a vehicle; default 0 [m/s]; three numbers, or nothing.
         wheel_spin: Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it; default 0 [rad/s]; a number, or nothing.
-        directions: Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`; `"exact"`, `"small_angles"`, or nothing.
+        directions: Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `"exact"`; `"exact"`, `"small_angles"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.

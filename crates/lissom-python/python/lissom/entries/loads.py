@@ -27,7 +27,7 @@ class Force(Load):
         at: location; default: the node's position [m]; a position, or nothing.
         vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
         scale: Factor; default 1; a size, or nothing.
-        follower: Whether it rotates with the node; default false: its direction is fixed; `true` or `false`, or nothing.
+        follower: Whether it rotates with the node; otherwise its direction is fixed; default `false`; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "force"
@@ -50,7 +50,7 @@ class Moment(Load):
         at: location; default: the node's position [m]; a position, or nothing.
         vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
         scale: Factor; default 1; a size, or nothing.
-        follower: Whether it rotates with the node; default false: its direction is fixed; `true` or `false`, or nothing.
+        follower: Whether it rotates with the node; otherwise its direction is fixed; default `false`; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "moment"
@@ -155,7 +155,7 @@ class LocalLoad(Entry):
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         on: a beam, along which it is distributed, or a node; a node.
         at: where it acts on a node, at the start; default the node [m]; a position, or nothing.
-        axes: axes of `force`, `moment`, velocities and relative flow: those of the section or body (default), global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too; `"section"`, `"global"`, `"part"`, or nothing.
+        axes: axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too; default `"section"`; `"section"`, `"global"`, `"part"`, or nothing.
         force: per length of a beam, or on a node: three numbers or expressions [N/m, N]; three expressions of `s` and `t`, or nothing.
         moment: the same for the moment [N, N m]; three expressions of `s` and `t`, or nothing.
         flow: velocity of the surrounding fluid in global axes, or with `axes = "part"` in those of the part: three numbers or expressions of x, y, z, t and inputs [m/s]; three expressions of `s` and `t`, or nothing.

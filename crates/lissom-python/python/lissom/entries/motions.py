@@ -17,9 +17,9 @@ class Initial(Entry):
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
         about: a point of the rigid motion; default the origin [m]; a position, or nothing.
-        equilibrium: start from static equilibrium under the loads at the start, default false; `true` or `false`, or nothing.
-        steady_rotation: start from the relative equilibrium in which the model rotates steadily with its velocities, default false; `true` or `false`, or nothing.
-        follow_drives: beams and superelements without given velocities start with those of their drive, default true; otherwise at rest; `true` or `false`, or nothing.
+        equilibrium: start from static equilibrium under the loads at the start; default `false`; `true` or `false`, or nothing.
+        steady_rotation: start from the relative equilibrium in which the model rotates steadily with its velocities; default `false`; `true` or `false`, or nothing.
+        follow_drives: beams and superelements without given velocities start with those of their drive, otherwise at rest; default `true`; `true` or `false`, or nothing.
         motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
     """
 

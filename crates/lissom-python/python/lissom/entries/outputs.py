@@ -270,7 +270,7 @@ class Reaction(Output):
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
-        axes: global axes, or those of the joint frame fixed in base or tip; default ground; `"ground"`, `"base"`, `"tip"`, or nothing.
+        axes: global axes, or those of the joint frame fixed in base or tip; default `"ground"`; `"ground"`, `"base"`, `"tip"`, or nothing.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """

@@ -22,7 +22,7 @@ class Beam(Entry):
         through: an intermediate point: the beam is a circular arc [m]; a position, or nothing.
         curve: instead of `from` and `to`: three expressions of s in 0..1 [m]; three expressions of `s`, or nothing.
         elements: number of elements; a whole number from 1 to 100000.
-        order: 1, 2 or 3 (default): elements of 2, 3 or 4 nodes; a whole number from 1 to 3, or nothing.
+        order: 1, 2 or 3: elements of 2, 3 or 4 nodes; default 3; a whole number from 1 to 3, or nothing.
         up: direction towards which local axis 3 is oriented; a direction, or nothing.
         force_per_length: in global axes, fixed in direction: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
         section_force_per_length: in the section's axes 1, 2 and 3, with which it rotates: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.

@@ -28,7 +28,7 @@ class Axial(Spring):
         damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
         damper_force: Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
-        side: Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
+        side: Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default `"both"`; `"both"`, `"tension"`, `"compression"`, or nothing.
         limits: Minimum and maximum force; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         backlash: Width of the backlash about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
         displacement: Relative displacement without force; default 0 [m]; a number, or nothing.
@@ -66,7 +66,7 @@ class Point(Spring):
         damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
         damper_force: Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
-        side: Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
+        side: Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default `"both"`; `"both"`, `"tension"`, `"compression"`, or nothing.
         limits: Minimum and maximum force; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         backlash: Width of the backlash about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
         length: Free length; default: the length at the start [m]; a number ≥ 0, or nothing.
@@ -182,7 +182,7 @@ class Torsional(Spring):
         damping: Damping; default 0 [N m s/rad]; a number ≥ 0, or nothing.
         moment: Moment over `rotation` and `rate`, in addition to `stiffness`; a table is over `rotation` [N m]; a number, an expression of `rotation` and `rate`, or a table over `rotation`, or nothing.
         damper_moment: Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate` [N m]; a number, an expression of `rate` and `rotation`, or a table over `rate`, or nothing.
-        side: Where it acts: above its free rotation ("positive"), below it ("negative"), or both; default both; `"both"`, `"positive"`, `"negative"`, or nothing.
+        side: Where it acts: above its free rotation ("positive"), below it ("negative"), or both; default `"both"`; `"both"`, `"positive"`, `"negative"`, or nothing.
         limits: Minimum and maximum moment; default: none [N m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         backlash: Width of the backlash about the free rotation, without moment; default 0 [rad]; a number ≥ 0, or nothing.
         angle: Relative rotation without moment; default 0 [rad]; a number, or nothing.
@@ -278,7 +278,7 @@ class Bushing(Spring):
         damping: 6 x 6 or its diagonal, as `stiffness`; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
         axis: First axis at the start, global axes; default global x. The axes rotate with the base; a direction, or nothing.
         second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; a direction, or nothing.
-        form: Displacement and rotation in the axes of the base ("base_axes", default), or as a screw, which is the same from both sides; `"base_axes"`, `"screw"`, or nothing.
+        form: Displacement and rotation in the axes of the base ("base_axes"), or as a screw, which is the same from both sides; default `"base_axes"`; `"base_axes"`, `"screw"`, or nothing.
     """
 
     _form: ClassVar[str] = "bushing"
@@ -354,7 +354,7 @@ class JournalBearing(Spring):
         length: Length along the shaft, short against the diameter [m]; a number > 0.
         clearance: Radial clearance [m]; a number > 0.
         viscosity: Dynamic viscosity of the lubricant [Pa s]; a number > 0.
-        film: Film where the pressure is positive ("ruptured", default), or everywhere ("full"); `"ruptured"`, `"full"`, or nothing.
+        film: Film where the pressure is positive ("ruptured"), or everywhere ("full"); default `"ruptured"`; `"ruptured"`, `"full"`, or nothing.
         axis: First axis at the start, global axes; default global x. The axes rotate with the base; a direction, or nothing.
     """
 

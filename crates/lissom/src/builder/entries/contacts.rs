@@ -27,17 +27,17 @@ entry! {
     material: MaterialId = "material";
     /// Material of the tip, if it is another one.
     tip_material: MaterialId = "tip_material";
-    /// Velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, default 0.
+    /// Velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; of rigid contacts from 0 to 1, and 0 if it is omitted.
     restitution: f64 = "restitution";
-    /// Slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires `restitution` or `rigid` \[m/s\].
+    /// Slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; requires `restitution` or `rigid`; default 1e-3 \[m/s\].
     rest_velocity: f64 = "rest_velocity";
-    /// How the dissipation follows from `restitution`; default "exact", the others for comparison with publications.
+    /// How the dissipation follows from `restitution`; those other than "exact" are for comparison with publications; default `"exact"`.
     restitution_law: words::RestitutionLaw = "restitution_law";
     /// Instead of `restitution`: relative increase of the normal force per penetration velocity \[s/m\].
     dissipation: f64 = "dissipation";
     /// Coefficient of sliding friction; default 0.
     friction: f64 = "friction";
-    /// Coefficient at rest, not below `friction`; default equal.
+    /// Coefficient at rest, not below `friction`; default: that of `friction`.
     static_friction: f64 = "static_friction";
     /// Sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 \[m/s\].
     stribeck: f64 = "stribeck";
@@ -63,7 +63,7 @@ entry! {
     []
     /// With what must be given.
     new()
-    /// Solids, in global axes; the default position is the origin.
+    /// Solids, in global axes; by default at the origin.
     shape: Solid = "shape";
     /// Instead of `shape`: an STL or glTF file in metres, drawn only.
     mesh: String = "mesh";

@@ -13,7 +13,7 @@ entry! {
     ///
     /// - `derivative`: time derivative \[1/s\]
     new(derivative: Expression = "derivative")
-    /// Value at the start, default 0.
+    /// Value at the start; default 0.
     start: f64 = "start";
     /// Typical magnitude, relative to which errors are measured unless its value is larger; default 1.
     magnitude: f64 = "magnitude";
@@ -27,8 +27,8 @@ entry! {
     ///
     /// - `zero_of`: the event occurs when this expression crosses zero
     new(zero_of: Expression = "zero_of")
-    /// Direction of the crossing, default `both`.
+    /// Direction of the crossing; default `"both"`.
     direction: words::Direction = "direction";
-    /// Whether the run ends at the event, default `false`.
+    /// Whether the run ends at the event; default `false`.
     stop: bool = "stop";
 }

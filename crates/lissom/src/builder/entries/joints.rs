@@ -87,7 +87,7 @@ entry! {
     /// - `other`: joint with the dependent coordinate
     /// - `ratio`: Change of the dependent coordinate per change of the independent one; negative for external gears \[1, m/rad or rad/m\]
     new(joint: JointId = "joint", other: JointId = "other", ratio: f64 = "ratio")
-    /// Whether it is meant to relate rotations relative to parts that turn against each other; default false: warned about.
+    /// Whether it is meant to relate rotations relative to parts that turn against each other, which is warned about otherwise; default `false`.
     relative: bool = "relative";
 }
 
@@ -101,7 +101,7 @@ entry! {
     new(start: Vec<f64> = "start")
     /// Rates at the start, as many as in `start`; default zeros \[m/s or rad/s\].
     rate: Vec<f64> = "rate";
-    /// Whether they are rotations \[rad\]; default false: displacements \[m\].
+    /// Whether they are rotations \[rad\] instead of displacements \[m\]; default `false`.
     rotations: bool = "rotations";
 }
 
@@ -285,11 +285,11 @@ entry! {
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", wheel_axis: [f64; 3] = "wheel_axis")
     /// Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` \[m\].
     radius: f64 = "radius";
-    /// Rounding radius of the rim; default 0, a sharp edge \[m\].
+    /// Rounding radius of the rim; zero for a sharp edge; default 0 \[m\].
     rim: f64 = "rim";
     /// Coefficient of friction; a warning reports when rolling requires more; default: no limit.
     friction_coefficient: f64 = "friction_coefficient";
-    /// Sliding velocity per force, a linear law of creep; default 0: no sliding. Makes the forces of several wheels on one axle, which constrain each other, unique \[m/(N s)\].
+    /// Sliding velocity per force, a linear law of creep. It makes the forces of several wheels on one axle, which constrain each other, unique; default 0 \[m/(N s)\].
     creep: f64 = "creep";
 }
 
@@ -317,7 +317,7 @@ entry! {
     new(beams: Vec<Part> = "beams", tip: Node = "tip")
     /// Location on the beam at the start; default: the tip node's position \[m\].
     at: [f64; 3] = "at";
-    /// Rotation of the tip: "free" (default); with the line's "tangent", about which it rotates freely; or with the beam's "section", as on a spline shaft.
+    /// Rotation of the tip: "free"; with the line's "tangent", about which it rotates freely; or with the beam's "section", as on a spline shaft; default `"free"`.
     orientation: words::Orientation = "orientation";
 }
 
@@ -413,7 +413,7 @@ entry! {
     velocity: [f64; 3] = "velocity";
     /// Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it; default 0 \[rad/s\].
     wheel_spin: f64 = "wheel_spin";
-    /// Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`.
+    /// Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `"exact"`.
     directions: words::Directions = "directions";
 }
 
@@ -428,11 +428,11 @@ nested! {
     static_friction: f64 = "static";
     /// Rate at which the difference is 1/e; default 0.01 \[m/s, rad/s\].
     stribeck: f64 = "stribeck";
-    /// Force per rate besides, default 0 \[N s/m, N m s/rad\].
+    /// Force per rate besides; default 0 \[N s/m, N m s/rad\].
     viscous: f64 = "viscous";
-    /// Elastic motion before it slips, default 1e-4 \[m, rad\].
+    /// Elastic motion before it slips; default 1e-4 \[m, rad\].
     deflection: f64 = "deflection";
-    /// Of the elastic motion, default 0 \[N s/m, N m s/rad\].
+    /// Of the elastic motion; default 0 \[N s/m, N m s/rad\].
     damping: f64 = "damping";
 }
 

@@ -90,7 +90,7 @@ entry! {
     new(on: Node = "on")
     /// Where it acts on a node, at the start; default the node \[m\].
     at: [f64; 3] = "at";
-    /// Axes of `force`, `moment`, velocities and relative flow: those of the section or body (default), global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too.
+    /// Axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too; default `"section"`.
     axes: words::Axes = "axes";
     /// Per length of a beam, or on a node: three numbers or expressions \[N/m, N\].
     force: [Expression; 3] = "force";
@@ -110,7 +110,7 @@ keys! {
     [Force, Moment]
     /// Factor; default 1.
     scale: Function = "scale";
-    /// Whether it rotates with the node; default false: its direction is fixed.
+    /// Whether it rotates with the node; otherwise its direction is fixed; default `false`.
     follower: bool = "follower";
 }
 

@@ -10,11 +10,11 @@ entry! {
     []
     /// With what must be given.
     new()
-    /// Start from static equilibrium under the loads at the start, default false.
+    /// Start from static equilibrium under the loads at the start; default `false`.
     equilibrium: bool = "equilibrium";
-    /// Start from the relative equilibrium in which the model rotates steadily with its velocities, default false.
+    /// Start from the relative equilibrium in which the model rotates steadily with its velocities; default `false`.
     steady_rotation: bool = "steady_rotation";
-    /// Beams and superelements without given velocities start with those of their drive, default true; otherwise at rest.
+    /// Beams and superelements without given velocities start with those of their drive, otherwise at rest; default `true`.
     follow_drives: bool = "follow_drives";
 }
 

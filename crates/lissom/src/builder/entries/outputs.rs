@@ -166,7 +166,7 @@ entry! {
     ///
     /// - `of`: the joint
     new(of: JointId = "of")
-    /// Global axes, or those of the joint frame fixed in base or tip; default ground.
+    /// Global axes, or those of the joint frame fixed in base or tip; default `"ground"`.
     axes: words::AxesOfTip = "axes";
 }
 

@@ -27,7 +27,7 @@ entry! {
     through: [f64; 3] = "through";
     /// Instead of `from` and `to`: three expressions of s in 0..1 \[m\].
     curve: [Expression; 3] = "curve";
-    /// 1, 2 or 3 (default): elements of 2, 3 or 4 nodes.
+    /// 1, 2 or 3: elements of 2, 3 or 4 nodes; default 3.
     order: usize = "order";
     /// Direction towards which local axis 3 is oriented.
     up: [f64; 3] = "up";

@@ -110,7 +110,7 @@ entry! {
     moment: Function = "moment";
     /// Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate` \[N m\].
     damper_moment: Function = "damper_moment";
-    /// Where it acts: above its free rotation ("positive"), below it ("negative"), or both; default both.
+    /// Where it acts: above its free rotation ("positive"), below it ("negative"), or both; default `"both"`.
     side: words::SignedSide = "side";
     /// Minimum and maximum moment; default: none \[N m\].
     limits: [f64; 2] = "limits";
@@ -177,7 +177,7 @@ entry! {
     stiffness: Matrix = "stiffness";
     /// 6 x 6 or its diagonal, as `stiffness`; default 0 \[N s/m, N s, N m s/rad\].
     damping: Matrix = "damping";
-    /// Displacement and rotation in the axes of the base ("base\_axes", default), or as a screw, which is the same from both sides.
+    /// Displacement and rotation in the axes of the base ("base\_axes"), or as a screw, which is the same from both sides; default `"base_axes"`.
     form: words::Form = "form";
 }
 
@@ -225,7 +225,7 @@ entry! {
     /// - `clearance`: Radial clearance \[m\]
     /// - `viscosity`: Dynamic viscosity of the lubricant \[Pa s\]
     new(base: Node = "base", tip: Node = "tip", radius: f64 = "radius", length: f64 = "length", clearance: f64 = "clearance", viscosity: f64 = "viscosity")
-    /// Film where the pressure is positive ("ruptured", default), or everywhere ("full").
+    /// Film where the pressure is positive ("ruptured"), or everywhere ("full"); default `"ruptured"`.
     film: words::Film = "film";
 }
 
@@ -319,7 +319,7 @@ keys! {
     force: Function = "force";
     /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
     damper_force: Function = "damper_force";
-    /// Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default both.
+    /// Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default `"both"`.
     side: words::Side = "side";
     /// Minimum and maximum force; default: none \[N\].
     limits: [f64; 2] = "limits";
