@@ -51,7 +51,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Chore {
-    /// Run the verification cases and write verification/REPORT.md
+    /// Run the verification cases and write docs/verification.md
     Verify(VerifyArguments),
     /// Write the scenes that speed is measured on to benches/scenes/
     Scenes(ScenesArguments),
@@ -212,7 +212,7 @@ struct VerifyArguments {
     /// Print every row
     #[arg(long, short)]
     verbose: bool,
-    /// Fail if the digits in `verification/REPORT.md` differ from those of these runs
+    /// Fail if the digits in `docs/verification.md` differ from those of these runs
     #[arg(long)]
     fresh: bool,
 }

@@ -16,7 +16,12 @@ const GROUPS: [(&str, &str); 4] = [
     ("invariants", "Invariants"),
 ];
 
-/// Writes report and plots: below verification/ after a whole run, below out/verification/ otherwise.
+/// File of the report.
+pub(crate) const NAME: &str = "verification.md";
+/// Folder of its plots, beside it: a book cannot show files outside of its own folder.
+const PLOTS: &str = "generated/verification";
+
+/// Writes report and plots: to docs/, as a chapter of the book, after a whole run, below out/verification/ otherwise.
 pub(crate) fn write(
     root: &Path,
     cases: &[Case],
@@ -24,8 +29,11 @@ pub(crate) fn write(
     elapsed: Duration,
     whole: bool,
 ) -> Result<(), VerifyError> {
-    let folder = root.join(if whole { "verification" } else { "out/verification" });
-    let plots = folder.join("plots");
+    let folder = root.join(if whole { "docs" } else { "out/verification" });
+    let plots = folder.join(PLOTS);
+    if plots.exists() {
+        std::fs::remove_dir_all(&plots).map_err(VerifyError::file(&plots))?;
+    }
     std::fs::create_dir_all(&plots).map_err(VerifyError::file(&plots))?;
     for outcome in outcomes {
         for figure in &outcome.figures {
@@ -34,7 +42,7 @@ pub(crate) fn write(
             std::fs::write(&path, drawing).map_err(VerifyError::file(&path))?;
         }
     }
-    let path = folder.join("REPORT.md");
+    let path = folder.join(NAME);
     std::fs::write(&path, text(cases, outcomes, elapsed)).map_err(VerifyError::file(&path))
 }
 
@@ -168,6 +176,6 @@ fn section(text: &mut String, case: &Case, outcome: &Outcome) {
         let _ = writeln!(text, "\n- {words}");
     }
     for figure in &outcome.figures {
-        let _ = writeln!(text, "\n![{}](plots/{}-{}.svg)", figure.name, case.name, figure.name);
+        let _ = writeln!(text, "\n![{}]({PLOTS}/{}-{}.svg)", figure.name, case.name, figure.name);
     }
 }

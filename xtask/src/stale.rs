@@ -1,4 +1,4 @@
-//! Whether `verification/REPORT.md` still agrees with the runs.
+//! Whether `docs/verification.md` still agrees with the runs.
 
 use std::collections::HashMap;
 

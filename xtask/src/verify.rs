@@ -11,7 +11,7 @@ use crate::VerifyArguments;
 use crate::case::{Case, CaseError};
 use crate::outcome::{Outcome, Row, Verdict};
 use crate::runs::Runs;
-use crate::{book, compare, curves, digits, invariants, refine, report, stale, warnings};
+use crate::{compare, curves, digits, invariants, refine, report, stale, warnings};
 
 /// A verification that cannot be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -19,9 +19,6 @@ pub(crate) enum VerifyError {
     /// A case is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// The book has no room for the report.
-    #[error(transparent)]
-    Book(#[from] book::BookError),
     /// There is no such case.
     #[error("there is no case `{0}` in verification/")]
     Unknown(String),
@@ -70,15 +67,12 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
         outcomes.iter().flat_map(|outcome| &outcome.rows).all(|row| row.verdict.word() != "skipped");
     let whole = arguments.names.is_empty() && !arguments.quick && is_complete;
     report::write(&root, &cases, &outcomes, elapsed, whole)?;
-    if whole {
-        book::verification::renew(&root)?;
-    }
     let failed = outcomes.iter().filter(|outcome| outcome.has_failed()).count();
-    let path = folder.join("REPORT.md");
+    let path = root.join("docs").join(report::NAME);
     let report = std::fs::read_to_string(&path).map_err(VerifyError::file(&path))?;
     let old = stale::differences(&report, &cases, &outcomes);
     for words in &old {
-        println!("OLD in verification/REPORT.md, which `cargo xtask verify` makes anew: {words}");
+        println!("OLD in docs/verification.md, which `cargo xtask verify` makes anew: {words}");
     }
     println!("{} cases in {:.1} s, {failed} failed", outcomes.len(), elapsed.as_secs_f64());
     Ok(failed == 0 && other_digits.is_empty() && (old.is_empty() || !arguments.fresh))

@@ -1,25 +1,13 @@
 //! Checks of the book: broken links, markers without a generator,
 //! generators without a position. Reads files, runs nothing.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
 use super::generators::GENERATORS;
-use super::{BookError, regions, verification};
-
-/// All that is wrong.
-pub(super) fn complaints(root: &Path) -> Result<Vec<String>, BookError> {
-    let mut all = structure(root)?;
-    if !verification::is_fresh(root)? {
-        all.push(
-            "docs/verification.md differs from verification/REPORT.md: `cargo xtask figures` copies it"
-                .to_owned(),
-        );
-    }
-    Ok(all)
-}
+use super::{BookError, regions};
 
 /// Errors of links and markers.
-fn structure(root: &Path) -> Result<Vec<String>, BookError> {
+pub(super) fn complaints(root: &Path) -> Result<Vec<String>, BookError> {
     let docs = root.join("docs");
     let mut complaints = Vec::new();
     let mut filled: Vec<String> = Vec::new();
@@ -139,12 +127,6 @@ fn links(text: &str) -> Vec<String> {
     targets
 }
 
-/// Where the drawings of a text are, by their links.
-pub(super) fn drawings(text: &str) -> Vec<PathBuf> {
-    let is_drawing = |target: &String| Path::new(target).extension().is_some_and(|ending| ending == "svg");
-    links(text).into_iter().filter(is_drawing).map(PathBuf::from).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -152,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_book_holds_together() {
-        let complaints = structure(&root()).unwrap();
+        let complaints = complaints(&root()).unwrap();
         assert!(complaints.is_empty(), "{complaints:#?}");
     }
 
@@ -160,7 +142,6 @@ mod tests {
     fn links_are_found_and_code_is_not() {
         let text = "a [b](c.md#d) `[x](y)` ![e `f`](g.svg)\n```\n[h](i)\n```\n[j](http://k)\n";
         assert_eq!(links(text), ["c.md#d", "g.svg", "http://k"]);
-        assert_eq!(drawings(text), [PathBuf::from("g.svg")]);
     }
 
     #[test]

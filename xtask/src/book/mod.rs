@@ -13,7 +13,6 @@ mod published;
 mod regions;
 mod roundoff;
 mod simulation;
-pub(crate) mod verification;
 mod work;
 
 use std::ops::ControlFlow;
@@ -138,10 +137,6 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<bool, BookError> {
         studio.bar.suspend(|| println!("{}", generator.name));
     }
     studio.bar.finish_and_clear();
-    if arguments.names.is_empty() {
-        verification::renew(&studio.root)?;
-        println!("verification");
-    }
     Ok(true)
 }
 
