@@ -1,5 +1,5 @@
-//! The schema accepts every good model file and every example, and refuses what a schema can refuse. `LISSOM_PROGRAM` names the
-//! program that prints it; without it what `cargo build --release` has built is taken.
+//! The schema accepts all good model files and examples, and rejects what a schema can reject. `LISSOM_PROGRAM` names the program
+//! that prints it; by default the one that `cargo build --release` has built.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -63,7 +63,7 @@ class ArmEnv(gymnasium.Env[Observation, Observation]):
         try:
             self.sim.step_to(self.steps * self.PERIOD)
         except lissom.SolutionError as error:
-            # The end of the episode, told apart from a good one.
+            # The episode ends with a failure, which differs from a regular end.
             return self._observation(), -100.0, True, False, {"error": str(error)}
         observation = self._observation()
         reward = -observation[0] - 0.01 * observation[2] ** 2

@@ -1,6 +1,6 @@
-"""Identify stiffness and damping of a spring from a noisy measurement, by least squares, and say how well they are known.
+"""Identify stiffness and damping of a spring from a noisy measurement, by least squares, with their uncertainty.
 
-The measurement is made up: the pendulum of the examples with a spring that nobody is told of, and noise on its place.
+The measurement is synthetic: the pendulum of the examples with a spring of known values, and noise on its position.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Tune a controller by Optuna, without gradients: gains of a PD law with which an arm reaches its target soon, with little torque.
 
 A horizontal arm of 1 m starts at rest and is to stand at 1 rad. The measure is the mean square of the error over 2 s and a hundredth
-of that of the torque. Gains enter the model file as parameters; a trial is one run. A trial whose run fails counts as pruned: it is
-told by Optuna, and never taken for a good one.
+of that of the torque. Gains enter the model file as parameters; a trial is one run. A trial whose run fails counts as pruned: Optuna
+reports it and ignores its measure.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def measure(model: lissom.Model, gains: dict[str, float]) -> float:
 def tune(
     trials: int = 120, show: bool = True, overrides: dict[str, float] | None = None
 ) -> tuple[optuna.Study, list[float]]:
-    """The study, and the best measure after every trial; infinite as long as none has come to its end."""
+    """The study, and the best measure after every trial; infinite until one has completed."""
     model = lissom.loads(MODEL, "arm.toml", **(overrides or {}))
 
     def objective(trial: optuna.Trial) -> float:

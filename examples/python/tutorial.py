@@ -2,7 +2,7 @@
 # # Lissom in Python, from a model to a controller
 #
 # A notebook in the percent format: Jupyter, VS Code and Spyder open it; `python tutorial.py` runs it as it is. The tests of the
-# package run it, too, and compare `told` with what the command line says, to the last bit.
+# package run it, too, and compare `values` with those of the command line, to the last bit.
 
 # %%
 from pathlib import Path
@@ -13,7 +13,7 @@ import lissom
 from lissom.entries import Body, analyses, joints, outputs
 
 EXAMPLES = Path(__file__).resolve().parents[1] if "__file__" in globals() else Path("examples")
-told: dict[str, float] = {}
+values: dict[str, float] = {}
 
 # %% [markdown]
 # ## Run a model file
@@ -21,7 +21,7 @@ told: dict[str, float] = {}
 # %%
 pendulum = lissom.load(EXAMPLES / "pendulum.toml")
 result = pendulum.run()
-told["pendulum_x"] = result["bob.x"][-1]
+values["pendulum_x"] = result["bob.x"][-1]
 print(result, result.summary["newton_iterations"], "iterations")
 result.names
 
@@ -30,7 +30,7 @@ result.names
 
 # %%
 heavy = pendulum.replace({"point_masses.bob.mass": 4})
-told["heavy_x"] = heavy.run()["bob.x"][-1]
+values["heavy_x"] = heavy.run()["bob.x"][-1]
 
 # %% [markdown]
 # ## Frequencies, derivatives, a linear model
@@ -38,11 +38,11 @@ told["heavy_x"] = heavy.run()["bob.x"][-1]
 # %%
 crank = lissom.load(EXAMPLES / "tip-crank.toml")
 modes = crank.modes(3, about="undeformed")
-told["first_frequency"] = modes.frequencies[0]
+values["first_frequency"] = modes.frequencies[0]
 gradient = pendulum.gradient("bob.x@0.5", ["springs.spring.stiffness"])
-told["derivative"] = gradient["springs.spring.stiffness"]
+values["derivative"] = gradient["springs.spring.stiffness"]
 linear = crank.linearize(about="undeformed")
-told["mass_trace"] = float(linear.M.diagonal().sum())
+values["mass_trace"] = float(linear.M.diagonal().sum())
 print(modes.frequencies, gradient, linear)
 
 # %% [markdown]
@@ -59,7 +59,7 @@ swing.outputs["energy"] = outputs.Energy()
 swing.analysis = analyses.Dynamics(end=2, step=5e-3)
 print(swing)
 fall = swing.run()
-told["swing"] = fall["hinge.angle"][-1]
+values["swing"] = fall["hinge.angle"][-1]
 assert np.abs(fall["energy.total"] - fall["energy.total"][0]).max() < 1e-2
 
 # %% [markdown]
@@ -95,5 +95,5 @@ assert sim["arm.angle"] == there
 
 # %%
 table = lissom.sweep(pendulum, {"point_masses.bob.mass": [1, 2, 4]}, collect={"swing": "max(bob.x)"})
-told["sweep_swing"] = table["swing"][2]
+values["sweep_swing"] = table["swing"][2]
 print(table["swing"])

@@ -1,4 +1,4 @@
-//! What the targets ask of a text: that it is read, or refused with its place.
+//! What the targets check: a text is read, or rejected with its position.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;

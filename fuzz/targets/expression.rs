@@ -1,4 +1,4 @@
-//! Expressions: whatever the text, it is read or refused with its place.
+//! Expressions: whatever the text, it is read, or rejected with its position.
 
 #![no_main]
 

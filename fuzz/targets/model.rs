@@ -1,4 +1,4 @@
-//! Model files: whatever the text, it is read or refused with a line.
+//! Model files: whatever the text, it is read, or rejected with a line number.
 
 #![no_main]
 

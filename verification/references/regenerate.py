@@ -133,7 +133,7 @@ def main():
         return 0
     unknown = [name for name in arguments.names if name not in known]
     if unknown:
-        print(f"no program {', '.join(unknown)}; --list tells which there are", file=sys.stderr)
+        print(f"no program {', '.join(unknown)}; --list prints their names", file=sys.stderr)
         return 2
     rows = Rows()
     wanted = arguments.names or [name for name in known if not (arguments.quick and name in LONG)]

@@ -27,7 +27,7 @@ const inverse = (matrix) => {
   return rows.flatMap((row) => row.slice(n));
 };
 
-/** The compliance of the section of a beam at the fraction s; none where stations do not tell their stiffness. */
+/** The compliance of the section of a beam at the fraction s; none where stations do not state their stiffness. */
 const compliance = ({ stations }, s) => {
   if (stations.some(({ stiffness }) => stiffness?.length !== 36)) return null;
   let next = stations.findIndex((station) => station.at > s);

@@ -21,7 +21,7 @@ export class Live {
         else if (answer.status !== 204) throw new Error(`answer ${answer.status}`);
         this.showConnection(true);
       } catch (error) {
-        // An answer that cannot be shown is told; a program that has ended may come back.
+        // An answer that cannot be shown is reported; a program that has ended may return.
         if (!(error instanceof TypeError)) this.tell({ kind: "error", text: `The answer cannot be shown: ${error.message}` });
         this.showConnection(false);
         // A program that is started again counts its versions anew.

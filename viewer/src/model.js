@@ -358,7 +358,7 @@ export class ModelView {
     this.stage.scene.remove(this.group);
   }
 
-  /** Gives back what the graphics card holds. */
+  /** Releases the memory of the graphics card. */
   dispose() {
     this.group.traverse((child) => {
       child.geometry?.dispose();

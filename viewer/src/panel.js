@@ -1,4 +1,4 @@
-// What the side of the page tells: the parts, and all about the one that is selected.
+// The panel at the side of the page: the parts, and details of the selected one.
 
 import { spelled } from "./words.js";
 

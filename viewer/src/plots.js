@@ -35,7 +35,7 @@ const LEGIBLE = 100;
 const keyOf = ([{ output, unit }]) => `${output}\n${unit}`;
 
 export class Plots {
-  /** `seek` is told the time that was clicked. */
+  /** `seek` receives the time that was clicked. */
   constructor(holder, seek) {
     this.holder = holder;
     this.seek = seek;
@@ -322,7 +322,7 @@ export class Plots {
         continue;
       }
       this.placeTime(plot);
-      // Where no pointer asks for others, the legend tells the values now.
+      // Without a pointer over the plot, the legend shows the current values.
       if (isLegible && !(plot.cursor.left >= 0)) plot.setLegend({ idx: isJoined ? plot.valToIdx(this.time) : row }, false);
     }
   }

@@ -1,4 +1,4 @@
-// Colours of the page and of what is drawn; those of parts and curves can be told apart by colour-blind eyes.
+// Colours of the page and of what is drawn; colour-blind readers can distinguish those of parts and curves.
 
 /** Okabe and Ito, without black. */
 export const curves = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#B8A800"];

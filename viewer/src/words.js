@@ -1,6 +1,6 @@
 // Numbers in words.
 
-/** A number with so many digits, without zeros that tell nothing. */
+/** A number with so many digits, without trailing zeros. */
 export const spelled = (value, digits = 6) => {
   if (!Number.isFinite(value)) return String(value);
   if (value === 0) return "0";

@@ -60,19 +60,19 @@ const comparePlaces = async (page, out) => {
     if (!letters) continue;
     for (const share of [0, 0.31, 0.77, 1]) {
       const row = rows[Math.round(share * (rows.length - 1))];
-      const told = letters.map((letter) => row[`${name}.${letter}`]);
+      const recorded = letters.map((letter) => row[`${name}.${letter}`]);
       const pixels = await page.evaluate(
-        ([time, anchor, told, isChange]) => {
+        ([time, anchor, recorded, isChange]) => {
           lissom.player.seek(time);
           lissom.move();
           const { reference } = lissom.kinematics.motion;
           const drawn = lissom.kinematics.point(anchor);
           const at = 7 * anchor.node;
           // Offsets of displaced points are zero in these models.
-          const place = isChange ? told.map((x, k) => reference[at + k] + x) : told;
+          const place = isChange ? recorded.map((x, k) => reference[at + k] + x) : recorded;
           return [lissom.stage.pixel(drawn), lissom.stage.pixel(place)];
         },
-        [row.time, point, told, kind === "displacement" && point.position.every((x) => x === 0)],
+        [row.time, point, recorded, kind === "displacement" && point.position.every((x) => x === 0)],
       );
       if (kind === "displacement" && point.position.some((x) => x !== 0)) continue;
       const distance = Math.hypot(pixels[0][0] - pixels[1][0], pixels[0][1] - pixels[1][1]);
@@ -95,7 +95,7 @@ const plays = async (page) => {
   assert.equal(await page.evaluate(() => lissom.player.isPlaying), false);
 };
 
-/** A click on a part selects it and tells its name. The page may still lay itself out: then the click is tried again. */
+/** A click on a part selects it and shows its name. While the layout of the page changes, the click is repeated. */
 const selects = async (page, part) => {
   const heading = (part) => document.querySelector("#selection h2")?.textContent.startsWith(part);
   for (let tries = 0; tries < 20 && !(await page.evaluate(heading, part)); tries++) {
@@ -140,7 +140,7 @@ const marks = async (page, part, outputs) => {
   const marked = await page.evaluate(() => lissom.plots.plots.filter(({ card }) => card.classList.contains("marked")).map(({ output }) => output));
   assert.deepEqual([...new Set(marked)].sort(), outputs);
   const rows = await page.locator("#selection td").allTextContents();
-  for (const output of outputs) assert.ok(rows.some((text) => text === output || text.startsWith(`${output}.`)), `the value of ${output} is told`);
+  for (const output of outputs) assert.ok(rows.some((text) => text === output || text.startsWith(`${output}.`)), `the value of ${output} is shown`);
   await page.keyboard.press("Escape");
 };
 
@@ -315,7 +315,7 @@ frames_per_second = 1000
     const { page, complaints } = await open(browser, join(out, "view.html"));
     const bytes = statSync(join(out, "view.html")).size;
     assert.ok(bytes < 15e6, `${bytes} bytes`);
-    const told = await page.evaluate(async () => {
+    const measured = await page.evaluate(async () => {
       const { motion } = lissom.kinematics;
       const elements = lissom.result.scene.beams.reduce((sum, beam) => sum + beam.elements, 0);
       const times = [];
@@ -332,9 +332,9 @@ frames_per_second = 1000
       await new Promise((done) => setTimeout(done, 3000));
       return { elements, frames: motion.frames, move: times[60], rate: (lissom.drawn - drawn) / 3 };
     });
-    assert.deepEqual([told.elements, told.frames], [1000, 1001]);
-    console.log(`        ${(bytes / 1e6).toFixed(1)} MB, ${told.move.toFixed(1)} ms to move all, ${told.rate.toFixed(0)} pictures per second drawn in software`);
-    assert.ok(told.move < 1000 / 60, `${told.move} ms to move all`);
+    assert.deepEqual([measured.elements, measured.frames], [1000, 1001]);
+    console.log(`        ${(bytes / 1e6).toFixed(1)} MB, ${measured.move.toFixed(1)} ms to move all, ${measured.rate.toFixed(0)} pictures per second drawn in software`);
+    assert.ok(measured.move < 1000 / 60, `${measured.move} ms to move all`);
     assert.deepEqual(complaints(), []);
   },
   "bodies in a plane": async (browser) => {
@@ -401,12 +401,12 @@ frames_per_second = 1000
     await page.evaluate(() => lissom.player.seek(lissom.player.end));
     await settled(page);
     const [last] = table(out).slice(-1);
-    const told = Number((await page.locator("#clock").textContent()).replace("load factor ", ""));
-    assert.ok(Math.abs(told - last.load_factor) < 1e-3 * Math.abs(last.load_factor), `${told} for ${last.load_factor}`);
+    const shown = Number((await page.locator("#clock").textContent()).replace("load factor ", ""));
+    assert.ok(Math.abs(shown - last.load_factor) < 1e-3 * Math.abs(last.load_factor), `${shown} for ${last.load_factor}`);
     await plays(page);
     await draws(page);
     assert.deepEqual(complaints(), []);
-    // Along another number its value is told, and loads, which may depend on it, are not drawn.
+    // Along another number its value is shown; loads, which may depend on it, are not drawn.
     const along = `${parts}${load}[analysis]\nkind = "path"\nend = 2\nstep = 0.1\nvary = "parameters.size"\n`;
     writeFileSync(join(folder, "along.toml"), along.replace("limit = 18544.5", "limit = 18544.5\nsize = 1").replace("vector = [0, -1, 0]", 'vector = [0, "-size", 0]'));
     const varied = await open(browser, join(view(join(folder, "along.toml")), "view.html"));
@@ -489,7 +489,7 @@ frames_per_second = 1000
       await shown(0.12);
       // Shaders are compiled once, and nothing of the last model is left.
       assert.deepEqual(await held(), first);
-      // A mistake is told beside the last picture, and is gone when it is mended.
+      // An error is shown beside the last picture, and disappears when it is corrected.
       writeFileSync(model, text.replace("order = 3", "order = 9"));
       await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("order"), null, { timeout: 60000 });
       assert.ok(await page.evaluate(() => lissom.model !== null));

@@ -1,9 +1,7 @@
 //! Words that comments, messages and the manual do not use, with the field's word for each.
 
 use std::fs;
-use std::path::Path;
-
-use crate::house_rules::{pages, sources};
+use std::path::{Path, PathBuf};
 
 /// Words that a reader of the field has to read twice, each with its replacement.
 const REPLACEMENTS: [(&str, &str); 53] = [
@@ -62,50 +60,101 @@ const REPLACEMENTS: [(&str, &str); 53] = [
     ("worth while", "efficient"),
 ];
 
+/// Start and end of a comment or string of a language.
+struct Delimiters {
+    start: &'static str,
+    end: &'static str,
+    /// Whether a backslash in between hides the next character.
+    has_escapes: bool,
+    /// Whether newlines may be in between.
+    has_lines: bool,
+}
+
+const fn verbatim(start: &'static str, end: &'static str) -> Delimiters {
+    Delimiters { start, end, has_escapes: false, has_lines: true }
+}
+
+const fn quoted(start: &'static str, has_lines: bool) -> Delimiters {
+    Delimiters { start, end: start, has_escapes: true, has_lines }
+}
+
+/// Comments, strings and characters of Rust.
+const RUST: [Delimiters; 8] = [
+    verbatim("//", "\n"),
+    verbatim("r##\"", "\"##"),
+    verbatim("r#\"", "\"#"),
+    verbatim("r\"", "\""),
+    quoted("\"", true),
+    verbatim("'\"", "'"),
+    verbatim("'\\'", "'"),
+    verbatim("'\\", "'"),
+];
+
+/// Those of JavaScript.
+const SCRIPT: [Delimiters; 5] =
+    [verbatim("//", "\n"), verbatim("/*", "*/"), quoted("`", true), quoted("\"", false), quoted("'", false)];
+
+/// Those of Python and TOML.
+const PYTHON: [Delimiters; 5] = [
+    verbatim("#", "\n"),
+    verbatim("\"\"\"", "\"\"\""),
+    verbatim("'''", "'''"),
+    quoted("\"", false),
+    quoted("'", false),
+];
+
+/// The prose of a file by its ending: comments and strings of the languages above, otherwise the whole text.
+fn prose_of(path: &Path, text: &str) -> String {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("rs") => prose(text, &RUST),
+        Some("js") => prose(text, &SCRIPT),
+        Some("py" | "pyi" | "toml") => prose(text, &PYTHON),
+        _ => without_code(text),
+    }
+}
+
 /// Comments and strings of a source, without code in braces or backticks; lines are kept.
-fn prose(source: &str) -> String {
+fn prose(source: &str, language: &[Delimiters]) -> String {
     let mut text = String::new();
     let mut rest = source;
     while let Some(first) = rest.chars().next() {
-        let raw_hashes =
-            rest.strip_prefix('r').map(|after| after.len() - after.trim_start_matches('#').len());
-        let (opening, length, is_prose) = if rest.starts_with("//") {
-            (0, rest.find('\n').unwrap_or(rest.len()), true)
-        } else if let Some(hashes) = raw_hashes.filter(|hashes| rest[1 + hashes..].starts_with('"')) {
-            let end = format!("\"{}", "#".repeat(hashes));
-            let opening = hashes + 2;
-            (opening, opening + rest[opening..].find(&end).expect("an end"), true)
-        } else if first == '"' {
-            (1, end_of_string(rest), true)
-        } else if rest.starts_with("'\"'") || rest.starts_with("'\\") {
-            (0, 2 + rest[2..].find('\'').expect("an end") + 1, false)
+        let found = language.iter().find_map(|delimiters| {
+            let content = rest.strip_prefix(delimiters.start)?;
+            Some((delimiters, &content[..end(content, delimiters)?]))
+        });
+        let length = if let Some((delimiters, content)) = found {
+            // A string of one word is a name.
+            if content.contains(' ') {
+                text.push_str(&without_code(content));
+            } else {
+                text.extend(content.chars().filter(|c| *c == '\n'));
+            }
+            let end = if delimiters.end == "\n" { 0 } else { delimiters.end.len() };
+            delimiters.start.len() + content.len() + end
         } else if first.is_alphanumeric() || first == '_' {
-            let is_word = |c: char| c.is_alphanumeric() || c == '_';
-            (0, rest.find(|c| !is_word(c)).unwrap_or(rest.len()), false)
+            rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())
         } else {
-            (0, first.len_utf8(), false)
+            text.extend((first == '\n').then_some(first));
+            first.len_utf8()
         };
-        // A string of one word is a name.
-        if is_prose && rest[opening..length].contains(' ') {
-            text.push_str(&without_code(&rest[opening..length]));
-        } else {
-            text.extend(rest[..length].chars().filter(|c| *c == '\n'));
-        }
-        let closing = if opening == 0 { 0 } else { opening - usize::from(rest.starts_with('r')) };
-        rest = &rest[length + closing..];
+        rest = &rest[length..];
     }
     text
 }
 
-/// Where the string that begins with a quotation mark ends.
-fn end_of_string(text: &str) -> usize {
-    let mut is_escaped = true;
-    let end = text.find(|c: char| {
-        let is_end = c == '"' && !is_escaped;
-        is_escaped = c == '\\' && !is_escaped;
-        is_end
-    });
-    end.expect("an end")
+/// Where a comment or string ends, if it does.
+fn end(content: &str, delimiters: &Delimiters) -> Option<usize> {
+    let mut is_escaped = false;
+    for (index, c) in content.char_indices() {
+        if !is_escaped && content[index..].starts_with(delimiters.end) {
+            return Some(index);
+        }
+        if c == '\n' && !delimiters.has_lines {
+            return None;
+        }
+        is_escaped = delimiters.has_escapes && c == '\\' && !is_escaped;
+    }
+    (delimiters.end == "\n").then_some(content.len())
 }
 
 /// The text with what is in braces or between backticks left blank, lines kept.
@@ -147,37 +196,69 @@ fn offences(text: &str) -> Vec<(usize, &'static str, &'static str)> {
     found
 }
 
+/// Files with prose below a folder: sources, tests, scripts, models and pages.
+fn files_with_prose(folder: &Path, found: &mut Vec<PathBuf>) {
+    const ENDINGS: [&str; 10] = ["css", "html", "js", "md", "py", "pyi", "rs", "sh", "toml", "yml"];
+    for entry in fs::read_dir(folder).expect("readable") {
+        let path = entry.expect("readable").path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.is_dir() {
+            let is_hidden = name.starts_with('.') && name != ".ci" && name != ".github";
+            if !is_hidden && !["node_modules", "out", "target", "venv"].contains(&name.as_ref()) {
+                files_with_prose(&path, found);
+            }
+        } else if folder.file_name().is_some_and(|own| own == ".ci")
+            || ENDINGS.iter().any(|ending| path.extension() == Some(ending.as_ref()))
+        {
+            found.push(path);
+        }
+    }
+}
+
+/// Generated from sources that are searched, or with the words for a reason.
+const EXEMPT: [&str; 5] = [
+    "crates/lissom/src/view/viewer.html",
+    "docs/reference.md",
+    "tests/prose.rs",
+    // A drive that comes to rest.
+    "silent/drive-comes-to-rest.toml",
+    "silent/inertia-of-no-body.toml",
+];
+
 #[test]
 fn worst_words_are_not_used() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut files = ["ARCHITECTURE.md", "CONTRIBUTING.md", "README.md"].map(|name| root.join(name)).to_vec();
-    pages(&root.join("docs"), &mut files);
-    for folder in ["crates", "xtask"] {
-        sources(&root.join(folder), &mut files);
+    let mut files = Vec::new();
+    files_with_prose(&root, &mut files);
+    for seen in [".ci/run", "viewer/index.html", "examples/pendulum.toml", "xtask/src/main.rs"] {
+        assert!(files.contains(&root.join(seen)), "the search must see {seen}");
     }
     let mut found = Vec::new();
     for file in files {
         let name = file.strip_prefix(&root).expect("below the root").to_string_lossy().replace('\\', "/");
         let text = fs::read_to_string(&file).expect("readable");
-        // This file has the words; others are generated from sources that are searched.
-        if name.ends_with("tests/prose.rs") || name == "docs/reference.md" || text.starts_with("// Made by") {
+        if text.starts_with("// Made by") || EXEMPT.iter().any(|exempt| name.ends_with(exempt)) {
             continue;
         }
-        let text = if Path::new(&name).extension().is_some_and(|extension| extension == "rs") {
-            prose(&text)
-        } else {
-            without_code(&text)
-        };
-        for (line, word, replacement) in offences(&text) {
+        for (line, word, replacement) in offences(&prose_of(&file, &text)) {
             found.push(format!("{name}:{line}: `{word}`; write: {replacement}"));
         }
     }
     assert!(found.is_empty(), "words to replace:\n{}", found.join("\n"));
 }
 
+/// Lines of the offences in a text of a file.
+fn lines(file: &str, text: &str) -> Vec<usize> {
+    offences(&prose_of(Path::new(file), text)).iter().map(|(line, _, _)| *line).collect()
+}
+
 #[test]
 fn the_search_sees_comments_and_strings_alone() {
     let source = "let tells = 'x'; // It tells.\nlet a = \"was told {told}\";\nlet b = r#\"\n tells \"#;\nlet c = '\"'; // `told`\n";
-    let lines: Vec<usize> = offences(&prose(source)).iter().map(|(line, _, _)| *line).collect();
-    assert_eq!(lines, [1, 2, 4]);
+    assert_eq!(lines("a.rs", source), [1, 2, 4]);
+    let source = "tell(1); // It's told.\n/** It\n tells */\nlet a = `was ${told}\n told`, b = \"told\";\n";
+    assert_eq!(lines("a.js", source), [1, 3, 5]);
+    let source = "told = 'x' # It tells.\n\"\"\"Is\n told.\"\"\"\na = 'was told' + \"told\"\n";
+    assert_eq!(lines("a.py", source), [1, 3, 4]);
+    assert_eq!(lines("run", "# what it tells\n"), [1]);
 }

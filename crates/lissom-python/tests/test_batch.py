@@ -124,9 +124,9 @@ def test_a_simulation_without_a_solution_waits() -> None:
     batch = lissom.loads(CART.replace("thrust - brake", "thrust / (1 - brake)")).simulations(3)
     batch.set("thrust", 1.0)
     batch.step_to(0.1)
-    with pytest.warns(lissom.SolutionWarning, match="simulation 1: .*1 more") as told:
+    with pytest.warns(lissom.SolutionWarning, match="simulation 1: .*1 more") as warned:
         batch.set("brake", [0.0, 1.0, 1.0])
-    assert len(told) == 1 and batch.failed.tolist() == [False, True, True] and list(batch.errors) == [1, 2]
+    assert len(warned) == 1 and batch.failed.tolist() == [False, True, True] and list(batch.errors) == [1, 2]
     error = batch.errors[1]
     assert isinstance(error, lissom.SolutionError) and error.code is not None
     batch.step_to([0.2, 0.0, 0.0])

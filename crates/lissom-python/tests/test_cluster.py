@@ -64,12 +64,12 @@ def test_a_cluster_that_loses_a_worker_gives_the_serial_table(client: Any, tmp_p
     for part in parts[7:20]:
         part.unlink()
     before = {part: part.stat().st_mtime_ns for part in parts[:7] + parts[20:]}
-    told: list[tuple[float, float]] = []
+    reports: list[tuple[float, float]] = []
     again = lissom.sweep(
-        model, VARY, client=client, out=tmp_path, progress=lambda done, all: told.append((done, all)), **drawn
+        model, VARY, client=client, out=tmp_path, progress=lambda done, all: reports.append((done, all)), **drawn
     )
     equal(again, serial)
-    assert len(told) == 13 and told[-1] == (1000, 1000)
+    assert len(reports) == 13 and reports[-1] == (1000, 1000)
     assert all(part.stat().st_mtime_ns == time for part, time in before.items())
     with pytest.raises(ValueError, match="another sweep"):
         lissom.sweep(model, VARY, client=client, out=tmp_path, **{**drawn, "seed": 5})

@@ -1,4 +1,4 @@
-"""The examples in Python run, and come to what they should."""
+"""The examples in Python run and give the expected results."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def test_arms_reach_their_target() -> None:
 
 
 def test_the_tutorial_tells_what_the_command_line_tells(program: Program, tmp_path: Path) -> None:
-    told = example("tutorial")["told"]
+    values = example("tutorial")["values"]
 
     def run(name: str, *args: object) -> Path:
         ended = program(*args, "--out", tmp_path / name, "--quiet")
@@ -109,26 +109,26 @@ def test_the_tutorial_tells_what_the_command_line_tells(program: Program, tmp_pa
     def summary(folder: Path) -> Any:
         return json.loads((folder / "summary.json").read_text())
 
-    assert told["pendulum_x"] == lissom.read(run("a", "run", PENDULUM))["bob.x"][-1]
+    assert values["pendulum_x"] == lissom.read(run("a", "run", PENDULUM))["bob.x"][-1]
     heavy = ("--set", "point_masses.bob.mass=4")
-    assert told["heavy_x"] == lissom.read(run("b", "run", PENDULUM, *heavy))["bob.x"][-1]
+    assert values["heavy_x"] == lissom.read(run("b", "run", PENDULUM, *heavy))["bob.x"][-1]
     crank = ROOT / "examples/tip-crank.toml"
     modes = summary(run("c", "modes", crank, "--about", "undeformed", "--count", 3))
-    assert told["first_frequency"] == modes["modes"][0]["frequency"]
+    assert values["first_frequency"] == modes["modes"][0]["frequency"]
     gradient = summary(run("d", "gradient", PENDULUM, "--of", "bob.x@0.5", "--by", "springs.spring.stiffness"))
-    assert told["derivative"] == gradient["derivatives"][0]["derivative"]
+    assert values["derivative"] == gradient["derivatives"][0]["derivative"]
     linear = run("e", "linearize", crank, "--about", "undeformed")
-    assert told["mass_trace"] == float(scipy.io.mmread(linear / "M.mtx").tocsr().diagonal().sum())
+    assert values["mass_trace"] == float(scipy.io.mmread(linear / "M.mtx").tocsr().diagonal().sum())
     sweep = tmp_path / "sweep.toml"
     sweep.write_text(
         f'lissom_sweep = 1\nmodel = "{PENDULUM}"\n[vary]\n"point_masses.bob.mass" = [1, 2, 4]\n[collect]\nswing = "max(bob.x)"\n'
     )
     table = np.genfromtxt(run("f", "sweep", sweep) / "sweep.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
-    assert told["sweep_swing"] == table["swing"][2]
+    assert values["sweep_swing"] == table["swing"][2]
     # The model that was built of objects, by its text.
     file = tmp_path / "swing.toml"
     file.write_text(str(example("tutorial")["swing"]))
-    assert told["swing"] == lissom.read(run("g", "run", file))["hinge.angle"][-1]
+    assert values["swing"] == lissom.read(run("g", "run", file))["hinge.angle"][-1]
 
 
 CART = """

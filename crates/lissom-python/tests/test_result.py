@@ -124,11 +124,11 @@ def test_folders_that_hold_nothing_are_refused(tmp_path: Path) -> None:
     assert not lissom.read(tmp_path).is_complete, "a run without summary was cut off"
 
 
-def test_progress_is_told() -> None:
-    told: list[tuple[float, float]] = []
+def test_progress_is_reported() -> None:
+    reports: list[tuple[float, float]] = []
     model = lissom.load(PENDULUM, **{"analysis.step": 1e-5})
-    model.run(progress=lambda done, planned: told.append((done, planned)))
-    assert told and all(0 < done <= planned == 100000 for done, planned in told)
+    model.run(progress=lambda done, planned: reports.append((done, planned)))
+    assert reports and all(0 < done <= planned == 100000 for done, planned in reports)
     with pytest.raises(ZeroDivisionError):
         model.run(progress=lambda done, planned: 1 / 0)
     with pytest.raises(TypeError, match="True, False or a function"):
@@ -139,9 +139,9 @@ def test_progress_is_told() -> None:
 
 def test_a_line_on_the_terminal_tells_what_is_left(capsys: pytest.CaptureFixture[str]) -> None:
     lissom.load(PENDULUM, **{"analysis.step": 5e-6}).run(progress=True)
-    told = capsys.readouterr().err.split("\r")
-    assert any("#" in line and line.rstrip().endswith("left") for line in told), told
-    assert told[-2].strip() == "" and told[-1] == "", "the line is gone in the end"
+    lines = capsys.readouterr().err.split("\r")
+    assert any("#" in line and line.rstrip().endswith("left") for line in lines), lines
+    assert lines[-2].strip() == "" and lines[-1] == "", "the line is gone in the end"
 
 
 def test_other_threads_go_on_while_a_model_runs() -> None:

@@ -62,7 +62,7 @@ def test_a_page_shows_the_motion_of_the_run(program: Program, tmp_path: Path) ->
     assert ended.returncode == 0, ended.stderr
     there = (tmp_path / "pendulum" / "view.html").read_text(encoding="utf-8")
     animation = lissom.load(PENDULUM).run().animate()
-    # The same page but for the name, which is that of the folder there.
+    # The same page except for the name, which is that of the folder there.
     assert animation.html.replace(f'"name":"{PENDULUM}"', '"name":"pendulum"') == there
     assert lissom.read(tmp_path / "pendulum").animate().html == there
     cell = animation._repr_html_()

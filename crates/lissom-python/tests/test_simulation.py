@@ -119,19 +119,19 @@ def test_failures_name_the_time() -> None:
     assert sim.time == 0
 
 
-def test_reasons_to_doubt_are_told_while_stepping() -> None:
+def test_warnings_are_issued_while_stepping() -> None:
     model = lissom.load(ROOT / "examples" / "four-bar.toml", **{"analysis.step": 0.05})
     with pytest.warns(lissom.ModelWarning) as of_run:
-        told = model.run().summary["warnings"]
-    assert [str(warning.message) for warning in of_run] == told
-    codes = sorted(warning.split(":")[0] for warning in told)
+        expected = model.run().summary["warnings"]
+    assert [str(warning.message) for warning in of_run] == expected
+    codes = sorted(warning.split(":")[0] for warning in expected)
     assert "energy-surplus" in codes
     with pytest.warns(lissom.ModelWarning) as of_steps:
         sim = model.simulation()
         while not sim.is_finished:
             sim.step()
-    # Told when it came up; the figures go on to grow.
-    assert sim.warnings == told and sorted(str(warning.message).split(":")[0] for warning in of_steps) == codes
+    # Issued when it first occurs; its figures grow afterwards.
+    assert sim.warnings == expected and sorted(str(warning.message).split(":")[0] for warning in of_steps) == codes
     assert any("from t = 3.4" in str(warning.message) for warning in of_steps)
     with pytest.warns(lissom.ModelWarning) as of_time:
         model.simulation().step_to(sim.end)

@@ -106,7 +106,7 @@ class Simulation:
         """Names and times [s] of the events that have happened."""
     @property
     def warnings(self) -> list[str]:
-        """Reasons to doubt the results up to now, as in `summary.json`. Each is also told by a `ModelWarning` when it comes up."""
+        """Warnings about the results so far, as in `summary.json`. Each is also issued once as a `ModelWarning`."""
     @property
     def names(self) -> list[str]:
         """Names of the columns, in the order of `values`."""

@@ -25,7 +25,7 @@ from .entries._model_tables import ORDER, ModelTables
 Progress = Union[bool, Callable[[float, float], object]]
 #: `"static"`, `"undeformed"`, `"rotation"` or a time [s].
 About = Union[str, float]
-Told = TypeVar("Told", Modes, Buckling, Campbell, Response, LinearModel)
+Report = TypeVar("Report", Modes, Buckling, Campbell, Response, LinearModel)
 
 
 class ModelWarning(UserWarning):
@@ -182,9 +182,9 @@ class Model(ModelTables):
         self._warn(result.summary.get("warnings", []))
         return result
 
-    def _warn(self, told: Sequence[str]) -> None:
+    def _warn(self, found: Sequence[str]) -> None:
         """Warnings about the model itself were reported when it was created."""
-        for words in told:
+        for words in found:
             if words not in self._facts["warnings"]:
                 warnings.warn(words, ModelWarning, stacklevel=3)
 
@@ -221,17 +221,17 @@ class Model(ModelTables):
             shift: seek the modes nearest to this frequency [Hz].
 
         Raises:
-            ModelError: if the question makes no sense for the model. SolutionError: if the state is not reached or no
+            ModelError: if the request is invalid for the model. SolutionError: if the state is not reached or no
             equilibrium, or modes were missed.
         """
         state = None if about is None else _about(about)
         request = _request(count=_at_least(1, count, "count"), about=state, shift=None if shift is None else float(shift))
         page = functools.partial(_lissom.modes_animation, self._native, request)
-        return self._told(Modes(_lissom.analyse(self._native, "modes", request), page))
+        return self._checked(Modes(_lissom.analyse(self._native, "modes", request), page))
 
     def buckling(self, count: int | None = None) -> Buckling:
         """Load factors at which the model buckles, by a linear estimate, as `lissom buckling` finds them."""
-        return self._told(Buckling(self._analysed("buckling", count=_at_least(1, count, "count"))))
+        return self._checked(Buckling(self._analysed("buckling", count=_at_least(1, count, "count"))))
 
     def path(self, **analysis: Any) -> Path:
         """Follows the equilibria under the loads times a load factor, as `lissom run` does for an analysis of kind `path`.
@@ -283,7 +283,7 @@ class Model(ModelTables):
         """
         vary = {"path": path, "from": float(start), "to": float(end), "values": _at_least(2, values, "values")}
         multiples = [_at_least(1, ray, "rays") for ray in rays]
-        return self._told(Campbell(self._analysed("campbell", vary=vary, count=_at_least(1, count, "count"), rays=multiples)))
+        return self._checked(Campbell(self._analysed("campbell", vary=vary, count=_at_least(1, count, "count"), rays=multiples)))
 
     def response(
         self,
@@ -307,7 +307,7 @@ class Model(ModelTables):
         """
         ports = {"inputs": _names(inputs), "outputs": _names(outputs), "about": _about(about)}
         count = _at_least(2, points, "points")
-        return self._told(Response(self._analysed("response", **ports, **{"from": float(start), "to": float(end)}, points=count)))
+        return self._checked(Response(self._analysed("response", **ports, **{"from": float(start), "to": float(end)}, points=count)))
 
     def linearize(
         self, inputs: str | Sequence[str] = (), outputs: str | Sequence[str] = (), *, about: About = "static"
@@ -320,13 +320,13 @@ class Model(ModelTables):
             about: the state, as for `modes`.
         """
         files = self._analysed("linearize", inputs=_names(inputs), outputs=_names(outputs), about=_about(about))
-        return self._told(linear_model(files))
+        return self._checked(linear_model(files))
 
     def _analysed(self, name: str, **request: Any) -> Files:
         """The files of an analysis."""
         return _lissom.analyse(self._native, name, _request(**request))
 
-    def _told(self, found: Told) -> Told:
+    def _checked(self, found: Report) -> Report:
         for words in found.warnings:
             warnings.warn(words, ModelWarning, stacklevel=3)
         return found

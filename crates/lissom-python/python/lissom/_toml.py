@@ -19,7 +19,7 @@ def value(of: Any) -> str:
     if isinstance(of, int):
         return str(of)
     if isinstance(of, float):
-        # `inf` and `nan` are TOML, too: the model refuses them with its own words.
+        # `inf` and `nan` are valid in TOML; the model rejects them with its own message.
         return repr(of)
     if isinstance(of, str):
         return json.dumps(of, ensure_ascii=False).replace("\x7f", "\\u007f")
