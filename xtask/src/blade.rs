@@ -118,7 +118,7 @@ fn diagonal(table: &Diagonal) -> Option<Vec<String>> {
 
 /// Stiffness and mass of every station, full.
 fn full(table: &Full) -> Option<Vec<String>> {
-    /// Of the table's rows, those of axes 1, 2, 3.
+    /// Rows of the table for axes 1, 2, 3.
     const ORDER: [usize; 6] = [2, 0, 1, 5, 3, 4];
     let matrix = |matrix: &Matrix| {
         let row = |i: usize| {

@@ -35,7 +35,7 @@ struct Scene {
     law: Option<[f64; 2]>,
 }
 
-/// Solids that touch each other and every ground. Of boxes that touch each other a scene would take ten seconds.
+/// Solids that touch each other and every ground. With boxes that touch each other a scene would take ten seconds.
 const FREE: [&str; 4] = ["sphere", "sphere", "sphere", "box"];
 /// Solids that touch a plane.
 const ON_PLANE: [&str; 6] = ["sphere", "box", "capsule", "cylinder", "ellipsoid", "hull"];

@@ -10,7 +10,7 @@ use crate::outcome::{Row, Verdict};
 use crate::runs::{finish, short};
 use crate::transform::{in_millimetres, reversed, turned, unit_factor};
 
-/// Of Newton's iteration: what is left of a solution's error depends on units.
+/// Tolerance of Newton's iteration, whose remaining error depends on units.
 const TOLERANCE: f64 = 1e-12;
 
 /// Runs an example as it is and changed, and compares all outputs.

@@ -1,6 +1,6 @@
-//! `cargo xtask structure`: import cycles between the files of a crate, and between its folders, and the numbers of named numeric
-//! constants and of methods of traits. A file imports another one if it names an item that is defined there,
-//! also through re-exports; a re-export alone is no import, and tests do not count.
+//! `cargo xtask structure`: import cycles between files and between folders of a crate, and its numbers of numeric constants and
+//! trait methods. A file imports another one if it names an item that is defined there, also through re-exports; a re-export
+//! alone is no import, and tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -362,7 +362,7 @@ fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     cycles
 }
 
-/// Prints the cycles of a crate, and the numbers of its lines, of its constants and of methods of its traits.
+/// Prints the cycles of a crate, and its numbers of lines, constants and trait methods.
 ///
 /// # Errors
 /// If a file cannot be read or is no Rust.

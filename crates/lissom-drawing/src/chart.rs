@@ -103,9 +103,9 @@ pub struct Chart {
     pub panels: Vec<Panel>,
     /// Number of panels side by side; the next ones are below.
     pub columns: usize,
-    /// Of the drawing.
+    /// Width of the drawing.
     pub width: f64,
-    /// Of each panel, with its words.
+    /// Height of each panel, including its labels.
     pub panel_height: f64,
 }
 
@@ -138,7 +138,7 @@ impl Chart {
         let cell = self.width / columns as f64;
         let height = head + self.panel_height * rows as f64;
         let mut drawing = Drawing::new(&self.name, [self.width, height]);
-        // Of equal width, so that times are aligned vertically.
+        // Panels have equal widths, so that times are aligned vertically.
         let numbers =
             frames.iter().flat_map(Frame::y_ticks).map(|(_, text)| lettering::width(&text, f64::from(TICK)));
         let left = 2.0 * MARGIN + f64::from(LABEL) + numbers.fold(0.0, f64::max) + 6.0;

@@ -58,8 +58,8 @@ impl Deref for Written {
     }
 }
 
-/// A value of a message. Of its two methods, that for numbers is found first: `(&Shown(value)).shown()` is a [`Written`] for numbers
-/// and a reference for everything else.
+/// A value in a message: `(&Shown(value)).shown()` is a [`Written`] for a number, whose method takes precedence, and a reference
+/// for anything else.
 #[derive(Debug)]
 pub struct Shown<'a, T: ?Sized>(pub &'a T);
 

@@ -38,7 +38,7 @@ impl Rotation {
 
     /// The rotation vector `θ` \[rad\] with `|θ| ≤ π`.
     ///
-    /// Of the two vectors of a half turn, the one whose first nonzero component is positive.
+    /// For a half turn, which has two such vectors, the one whose first nonzero component is positive.
     #[inline]
     pub fn logarithm(&self) -> Vector3 {
         Versor::from(self).logarithm().into()

@@ -207,7 +207,7 @@ impl<S: Scalar> Pivoting<S> {
             if !magnitude.is_finite() {
                 return Err(FactorError::NotFinite { unknown: column });
             }
-            // Of equal candidates the lower row is chosen, independent of the order of the search.
+            // The lower row among equal candidates is chosen, whatever the order of the search.
             if magnitude > largest || (magnitude == largest && magnitude > 0.0 && row < chosen) {
                 (largest, chosen) = (magnitude, row);
             }
@@ -338,7 +338,7 @@ impl<S: Scalar> LinearSolver<S> for Pivoting<S> {
         }
     }
 
-    /// Of the last factorisation; before the first, the entries of the matrix, a lower bound.
+    /// Entries of the last factors; before the first factorisation those of the matrix, a lower bound.
     fn factor_entries(&self) -> usize {
         let stored = self.lower.values.len() + self.upper.values.len() + self.pivots.len();
         stored.max(self.pattern.entries())

@@ -133,7 +133,7 @@ pub struct Placed {
 
 #[derive(Debug, Default)]
 struct Arrangement {
-    /// Of each local unknown, [`LOCKED`] if it does not exist.
+    /// Row of each local unknown, [`LOCKED`] if it does not exist.
     rows: Vec<u32>,
     /// First local unknown of each node.
     nodes: Vec<(usize, NodeId)>,

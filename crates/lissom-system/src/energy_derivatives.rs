@@ -138,8 +138,8 @@ impl System {
         Slopes { by_place: zeros.clone(), by_rate: zeros }
     }
 
-    /// Every mass, of nodes and of elements, with the derivatives of M v with respect to positions: those of M a at rest with v as
-    /// accelerations.
+    /// Calls `each` for the mass of every node and element, with the derivatives of M v with respect to positions, which are
+    /// those of M a at rest for a = v.
     fn each_mass(&self, at: &Kinematics, mut each: impl FnMut(&Moving<'_>)) {
         for inertia in &self.inertias {
             let matrix: &Matrix6 = inertia.mass();

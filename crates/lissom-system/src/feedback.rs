@@ -220,7 +220,7 @@ impl Feedback {
         Some((driven.signal, &**load))
     }
 
-    /// Known breakpoints of the signals of loads and states, and of those whose past is used [s].
+    /// Known breakpoints of signals that drive loads or states, or that are delayed [s].
     pub fn breakpoints(&self) -> Vec<f64> {
         let delayed = self.graph.delays().iter().filter_map(|delay| delay.source);
         self.graph.breakpoints_of(self.driven.iter().map(|driven| driven.signal).chain(delayed))

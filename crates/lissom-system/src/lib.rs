@@ -269,7 +269,7 @@ impl System {
         }
     }
 
-    /// Offsets of the local values of each item, for every batch of elements and of joints.
+    /// Offset of each item's local values, for every batch of elements and every batch of joints.
     pub fn starts_of_batches(&self) -> impl Iterator<Item = &[usize]> {
         let elements = self.batches.iter().map(|batch| batch.rows().starts());
         elements.chain(self.joint_batches.iter().map(JointBatch::starts))
@@ -350,8 +350,8 @@ impl System {
         self.elements_with(|own| own.laws).for_each(|element| element.switches(at, out));
     }
 
-    /// For each of the switching functions of elements, or of their laws, the index of the first one of its group, as its own where it
-    /// has none; `count` is their number for an element.
+    /// For each switching function or law of the elements, the index of the first one in its group, or its own index if it has no
+    /// group. `count` returns their number for an element.
     fn leaders(&self, count: impl Fn(&dyn ForceLaws) -> usize) -> Vec<usize> {
         let mut first = BTreeMap::new();
         let mut leaders = Vec::new();
@@ -363,12 +363,12 @@ impl System {
         leaders
     }
 
-    /// For each of the [`switches`](Self::switches) the index of the first one of its group.
+    /// For each of the [`switches`](Self::switches) the index of the first one in its group.
     pub fn leaders_of_switches(&self) -> Vec<usize> {
         self.leaders(ForceLaws::switch_count)
     }
 
-    /// For each of the laws of elements the index of the first one of its group; those of signals are before them.
+    /// For each law of an element the index of the first one in its group. The laws of signals precede these.
     pub fn leaders_of_laws(&self, at: &Kinematics) -> Vec<usize> {
         self.leaders(|element| {
             let mut count = 0;

@@ -11,7 +11,7 @@ use super::System;
 pub struct Mass<'a> {
     /// Its nodes.
     pub nodes: &'a [NodeId],
-    /// Of each local unknown.
+    /// Row of each local unknown.
     pub rows: &'a [u32],
     /// Row by row.
     pub matrix: &'a [f64],

@@ -194,8 +194,8 @@ pub(super) fn table(studio: &Studio) -> Result<Fragment, BookError> {
     Ok(fragment)
 }
 
-/// The cells of a run with chosen steps: its own, and those of the cheapest run with steps of one size that errs no more,
-/// with its cost between that and the next one by powers of the error.
+/// The cells of an adaptive run, and of the cheapest run with constant steps that is as accurate. The cost of the latter is
+/// interpolated between two runs, by powers of the error.
 fn beside(run: &Run, error: f64, fixed: &[(f64, Run)]) -> Vec<String> {
     let milliseconds = |run: &Run| 1e3 * run.busy.as_secs_f64();
     let mut cells = vec![

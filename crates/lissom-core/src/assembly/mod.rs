@@ -7,8 +7,8 @@
 //! Σ over parts  |u|² + ρ² |θ|²,     ρ² the mean square distance of the part's points from their centre
 //! ```
 //!
-//! which is the mean square displacement of the points, up to the direction of the axis of rotation: it needs no masses and
-//! does not depend on units or axes. The points of a part are its nodes and the positions of its joints.
+//! which is the mean square displacement of the points, except that it does not depend on the direction of the axis of rotation.
+//! It needs no masses and does not depend on units or axes. The points of a part are its nodes and the positions of its joints.
 
 mod closing;
 mod columns;

@@ -27,7 +27,7 @@ use crate::tuning::MAX_ITERATIONS;
 pub(crate) enum Inertias {
     /// All of them.
     All,
-    /// Those of parts and of generalised coordinates, without those that act on coordinates of joints.
+    /// Inertias of parts and generalised coordinates, without those on joint coordinates.
     OfParts,
 }
 

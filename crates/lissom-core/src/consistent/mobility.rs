@@ -1,4 +1,4 @@
-//! Mobility and redundant constraints: rank of B at a configuration, by elimination of its rows in the order of the joints.
+//! Mobility and redundant constraints: the rank of B at a configuration, by elimination of its rows joint by joint.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -165,7 +165,7 @@ fn axis(direction: &Vector3) -> String {
     let named = ["x", "y", "z"].into_iter().zip(direction.iter());
     let found =
         named.into_iter().find(|(_, part)| part.abs() > 1.0 - round_off::NEGLIGIBLE * round_off::NEGLIGIBLE);
-    // Of the two signs, that in which the first nonzero component is positive.
+    // The sign is chosen so that the first nonzero component is positive.
     let first = direction.iter().find(|part| part.abs() > round_off::NEGLIGIBLE).copied().unwrap_or(1.0);
     let round = |value: f64| (1e3 * value * first.signum()).round() / 1e3 + 0.0;
     found.map_or_else(
@@ -217,7 +217,7 @@ fn eliminate(
     }
 }
 
-/// Multipliers with their rows of B: first those of constraints of positions, then those of velocities that are not released.
+/// Multipliers with their rows of B: first the position constraints, then the velocity constraints that are not released.
 fn rows(system: &System, state: &State) -> Vec<(usize, BTreeMap<usize, f64>)> {
     let layout = system.layout();
     let linearization = system.linearization_at(&state.kinematics);

@@ -446,7 +446,7 @@ impl Group {
         }
     }
 
-    /// Factors B Bᵀ of independent equations, of positions before those of velocities, at most `count`; returns the smallest pivot.
+    /// Factors B Bᵀ of at most `count` independent equations, position constraints first; returns the smallest pivot.
     fn keep_independent(&self, work: &mut Work, count: usize) -> f64 {
         let Work { acting, square, factor, .. } = work;
         factor.clear();

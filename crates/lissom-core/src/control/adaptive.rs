@@ -4,10 +4,10 @@
 //! h_{n+1} = 0.8 a_n min(1, a_n/a_{n-1}),      a_n = h_n/ε_n        [Gustafsson 1994]
 //! ```
 //!
-//! Legend: ε size of the step over that of a step with the largest allowed error, a size of the latter: if it becomes smaller from step to
-//! step it is expected to do so again. The size is kept if it would change only slightly. It grows slowly after a step that needed
-//! many iterations, and shrinks after one that needed very many, if that has been of use; a size without solution is avoided for a
-//! while.
+//! Legend: a allowed step size, with the largest allowed error; ε ratio of the step size to it. If the allowed size decreases
+//! from step to step, it is expected to decrease again. The size is kept if it would change only slightly. It grows slowly after
+//! a step that needed many iterations, and shrinks after one that needed very many, if that has been of use; a size without
+//! solution is avoided for a while.
 
 use serde::{Deserialize, Serialize};
 
@@ -40,8 +40,8 @@ const FORGETTING: f64 = 1.02;
 /// Smallest ratio of the allowed sizes of two steps that is expected to continue.
 const MIN_TREND: f64 = 0.5;
 /// Largest defect in the middle of a step, as a fraction of the reference, if the tolerance is not smaller: a tolerance coarser
-/// than the distance of two branches does not distinguish them. Of a four-bar whose links pass through one line, generalized-α,
-/// HHT and Radau IIA find the branch with seven times this limit.
+/// than the distance of two branches does not distinguish them. For a four-bar whose links pass through one line, generalized-α,
+/// HHT and Radau IIA find the correct branch even with seven times this limit.
 const MAX_DEFECT: f64 = 1e-3;
 /// Ratio of sizes below which the last step was longer.
 const SHORTER: f64 = 0.9;
@@ -58,7 +58,7 @@ const SHORTEST: f64 = 1e-12;
 pub(crate) struct Adaptive {
     control: StepControl,
     controller: Controller,
-    /// Of the motion since the start.
+    /// Largest motion since the start.
     farthest: Extent,
     /// Defect that was evaluated last, over the allowed one, and the size that it allows [s].
     defect: f64,

@@ -75,7 +75,7 @@ pub(crate) trait Control: Send + Sync {
         true
     }
 
-    /// Size of an attempt over that of the planned step of which it is a part.
+    /// Size of an attempt as a fraction of the planned step that contains it.
     fn fraction(&self, attempt: &Attempt) -> f64 {
         let _ = attempt;
         1.0

@@ -82,7 +82,7 @@ impl IntegratedStep {
         })
     }
 
-    /// Adds the derivatives of the residuals by the parameter of a lane, at the motion of the last step of `base`, to `out`.
+    /// Adds the residuals' derivatives with respect to a lane's parameter to `out`, for the last step of `base`.
     pub(super) fn differ(
         &mut self,
         base: &Simulation,

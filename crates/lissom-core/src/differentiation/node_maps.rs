@@ -74,7 +74,7 @@ impl NodeMap {
         let (seen, turned) = (back, bracket * by_increment);
         let (bent, grown) = (operator.derivative(rate), by_increment);
         let rates = [seen, turned + bent, grown];
-        // Of T κ + Ṫ ζ, where Ṫ ζ = (∂(T b)/∂z) ζ at b = ζ.
+        // Derivative of T κ + Ṫ ζ, where Ṫ ζ = (∂(T b)/∂z) ζ at b = ζ.
         let by_place = tangent_derivative_rate(increment, (rate, curvature), rate);
         let by_rate = bent + tangent_rate(increment, rate);
         let accelerations = [

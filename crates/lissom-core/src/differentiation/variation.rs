@@ -12,15 +12,15 @@ pub(super) const NOTHING: Block = [0.0; WIDTH];
 /// Derivatives of a state by as many parameters as there are lanes. Those of a node are in its body axes.
 #[derive(Clone, Debug)]
 pub(super) struct Variation {
-    /// Of positions: body variations η of nodes with δH = H η̃, and values of coordinates; by row.
+    /// Positions: body variations η of nodes with δH = H η̃, and values of coordinates; by row.
     pub(super) place: Vec<Block>,
-    /// Of the components of twists, and of rates of coordinates.
+    /// Components of twists, and rates of coordinates.
     pub(super) rate: Vec<Block>,
-    /// Of their time derivatives.
+    /// Their time derivatives.
     pub(super) acceleration: Vec<Block>,
-    /// Of the scheme's algorithmic accelerations.
+    /// The scheme's algorithmic accelerations.
     pub(super) algorithmic: Vec<Block>,
-    /// Of the multipliers.
+    /// Multipliers.
     pub(super) multipliers: Vec<Block>,
 }
 

@@ -1,8 +1,7 @@
 //! Defect of the equations of motion between the ends of a step: Newton correction within the dense output.
 //!
-//! Legend: x step fraction in the middle of the widest gap between stages, or of the step, q(x) dense output with its accelerations
-//! and multipliers, r residual of the equations of motion, C constraint violations, J tangent of the step with its constraints, δ
-//! defect as a displacement.
+//! Legend: x step fraction in the middle of the widest gap between stages, or 1/2; q(x) dense output, with accelerations and
+//! multipliers; C constraint violations; J the step's tangent with constraints; δ defect as a displacement.
 //!
 //! ```text
 //! J [δ; ·] = [M a + f(q, v, t) + Bᵀ λ; C(q(x)) - (C_start + C_end)/2]

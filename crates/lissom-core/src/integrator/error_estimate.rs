@@ -9,12 +9,12 @@
 //! ε = (|J⁻¹ w₂ M e| / (reference · τ^(k/p)/2))^(1/k)
 //! ```
 //!
-//! If N steps of size h = 1/N have errors of h^(p+1) each, positions at the end have errors of h^p, and so of τ, with every scheme.
-//! ε is the size of the step over that of a step with the largest allowed error. The filter is that of [Hairer and Wanner 1996,
-//! IV.8]. A scheme of several stages has two estimates, of which the larger ε is used. The norm is the maximum norm, with lengths
-//! relative to ℓ_r. The reference is the largest displacement or rotation of a node since the start, or that of a drive within the
-//! longest step, at most 1. That of the mean displacement of all nodes is its own largest value, if that is longer: the motion of an
-//! orbit is not resolved to a fraction of the size of the satellite.
+//! If each of N steps of size h = 1/N has an error of h^(p+1), positions at the end have an error of h^p, which is τ with every
+//! scheme. ε is the ratio of the step size to the largest allowed one. The filter is that of [Hairer and Wanner 1996, IV.8]. A
+//! scheme of several stages has two estimates, of which the larger ε is used. The norm is the maximum norm, with lengths relative
+//! to ℓ_r. The reference is the largest displacement or rotation of a node since the start, or that of a drive within the longest
+//! step, at most 1. The mean displacement of all nodes is compared with its own largest value, if that is longer: an orbit is not
+//! resolved to a fraction of the satellite's size.
 
 use lissom_motion::Vector3;
 

@@ -86,7 +86,7 @@ impl Predictor {
     /// Converts the history to steps that are `ratio` times as long, with errors that are larger by `ratio` to the power of `order`.
     /// Coefficients are valid for one step size only, so the last two errors are kept and extrapolated linearly.
     ///
-    /// Legend: h_n size of the next step, J_n error of step n over the power of its size, located at about a quarter of the step.
+    /// Legend: h_n size of the next step, J_n error of step n divided by the power of its size, at about a quarter of the step.
     ///
     /// ```text
     /// J_n ≈ J_{n-1} + ρ (J_{n-1} - J_{n-2}),   ρ = (h_n + 3 h_{n-1})/(h_{n-1} + 3 h_{n-2})

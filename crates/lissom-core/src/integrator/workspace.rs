@@ -30,7 +30,7 @@ pub(crate) struct Effort {
 pub(crate) struct Prediction {
     /// The scheme's own, of the increments, by stage.
     pub(crate) predicted: Vec<Vec<f64>>,
-    /// Extrapolation of their errors, of increments and of multipliers.
+    /// Extrapolation of their errors: one for increments, one for multipliers.
     pub(crate) predictors: [Predictor; 2],
     /// Whether the next guess is extrapolated.
     pub(crate) extrapolates: bool,
@@ -62,7 +62,7 @@ pub(crate) struct EstimatedError {
 
 /// Limits that round-off sets.
 pub(crate) struct RoundOff {
-    /// Of displacements, from the extrapolated motion in the present step [scaled]; none until it is needed.
+    /// Limit for displacements, from the extrapolated motion in the present step [scaled]; none until it is needed.
     pub(crate) travel: Option<f64>,
     /// Forces below this are round-off of the stiffest elements' strains [N].
     pub(crate) force: f64,
@@ -70,9 +70,9 @@ pub(crate) struct RoundOff {
 
 /// Scaled sizes of units.
 pub(crate) struct Units {
-    /// Of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
+    /// By coordinate row: 1/ℓ_r for translations, 1 for rotations.
     pub(crate) coordinates: Vec<f64>,
-    /// Of each multiplier: moments as forces at the length that stands for a radian.
+    /// By multiplier: moments are converted to forces at the length that represents a radian.
     pub(crate) multipliers: Vec<f64>,
     /// From residuals in SI to right-hand sides of the tangent in use.
     pub(crate) rows: Vec<f64>,
@@ -235,8 +235,8 @@ impl Workspace {
         self.prediction.predictors.iter_mut().for_each(Predictor::forget);
     }
 
-    /// Goes over to steps that are `ratio` times as long: what is missed of places is of third order in the step, the
-    /// change of multipliers of first order.
+    /// Changes to steps that are `ratio` times as long. The prediction error of positions is of third order in the step size,
+    /// that of multipliers of first order.
     pub(crate) fn rescale_predictions(&mut self, ratio: f64) {
         let [of_increments, of_multipliers] = &mut self.prediction.predictors;
         of_increments.rescale(ratio, 3);

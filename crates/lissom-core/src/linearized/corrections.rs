@@ -115,7 +115,7 @@ impl Reduction {
         found * eigenvectors * DMatrix::from_diagonal(&unit)
     }
 
-    /// Generalised forces of accelerations, of angular accelerations and of steady rotations of the frame.
+    /// Generalised inertial forces due to linear acceleration, angular acceleration and steady rotation of the frame.
     fn inertial_forces(&self) -> [Vec<DVector<f64>>; 3] {
         let size = self.matrices.mass.nrows();
         let origin = self.places.first().copied().unwrap_or_default();
@@ -127,8 +127,8 @@ impl Reduction {
         [(0..3).map(carried).collect(), (3..6).map(carried).collect(), turning.collect()]
     }
 
-    /// Matrices of rotation, of acceleration and of forces on the interfaces along the directions from the first one; none if
-    /// they are unknown.
+    /// Second-order matrices due to rotation, to acceleration, and to forces on the interfaces along the directions from the
+    /// first interface; none if they are unknown.
     fn second_order_matrices(&self) -> [Vec<DMatrix<f64>>; 3] {
         let Some(own) = &self.second_order else { return Default::default() };
         let [turning, pushed] = own.of_loads();

@@ -139,7 +139,7 @@ impl LinearModel<'_> {
         motion[row].abs() * self.unit(row)
     }
 
-    /// xᵀ A x of a matrix with these values, and the sum of the magnitudes of its terms.
+    /// xᵀ A x for the matrix A with these values, and the sum of the magnitudes of its terms.
     fn form(&self, values: &[f64], motion: &[f64]) -> (f64, f64) {
         let pattern = self.pattern();
         let (mut sum, mut sizes) = (0.0, 0.0);

@@ -363,8 +363,8 @@ fn pair<'a>(
     for entry in &mut shape {
         *entry *= factor;
     }
-    // Of two formulas for the eigenvalue the one with the smaller error: one loses digits far from the shift, the other,
-    // Rayleigh's quotient, if its terms of the stiffness nearly cancel.
+    // The eigenvalue is computed by the more accurate of two formulas: one loses digits far from the shift, the other, Rayleigh's
+    // quotient, where its stiffness terms nearly cancel.
     let of_quotient = round_off(model, &shape, 1.0);
     let of_shift = SOLVED * value.recip().abs();
     let square = if of_quotient < of_shift {

@@ -324,8 +324,8 @@ impl<'a> LinearModel<'a> {
         self.released
     }
 
-    /// Rate of change of the twists of a moving state in the axes of their nodes, relative to the rate of rotation [-]: zero
-    /// in a steady motion, whose linear model has constant coefficients.
+    /// How fast the twists of a moving state change in body axes, relative to the rate of rotation [-]. It is zero in a steady
+    /// motion, whose linear model has constant coefficients.
     pub fn unsteadiness(&self) -> f64 {
         self.unsteadiness
     }

@@ -141,7 +141,8 @@ impl Assembly<'_> {
     /// Reduces to the interfaces and at most this number of modes.
     ///
     /// # Errors
-    /// If the assembly with fixed interfaces is a mechanism, not elastic, or not in equilibrium; if it is supported otherwise.
+    /// If the assembly with fixed interfaces is a mechanism, not elastic, or not in equilibrium, or if something other than the
+    /// interfaces supports it.
     pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
         refuse(self.free)?;
         let mut model =

@@ -68,8 +68,8 @@ impl<'a> LinearModel<'a> {
 }
 
 impl FrequencyResponse<'_, '_> {
-    /// Amplitudes of coordinates [m, rad] and multipliers [N, N m], by row, for each of the amplitudes of forces on the
-    /// right-hand sides and of constraints' violations, by row. `s` [1/s] is not zero.
+    /// Amplitudes of coordinates [m, rad] and multipliers [N, N m], by row, for each right-hand side: amplitudes of forces and
+    /// constraint violations, by row. `s` [1/s] is not zero.
     ///
     /// # Errors
     /// If s is an eigenvalue, or so near to one that the solution is inaccurate.

@@ -230,8 +230,8 @@ impl<'a> LinearModel<'a> {
         LinearModel::of(self.system, &state, self.solver)
     }
 
-    /// Deviation of a mode of this model from one of `other`, the model a fraction of a turn later: 0 if its coefficients are
-    /// constant, so that it is a solution.
+    /// Deviation of a mode of this model from a solution of `other`, the model after a fraction of a turn. It is 0 if the
+    /// coefficients are constant.
     ///
     /// # Errors
     /// If the matrices cannot be factorised.

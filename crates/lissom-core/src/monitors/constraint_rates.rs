@@ -16,8 +16,8 @@ use crate::kinematics::{Kinematics, Quantity};
 use crate::round_off::VIOLATION;
 use crate::system::System;
 
-/// ε is this fraction of the step, and of the time in which the fastest node moves a representative length or a radian. The error
-/// of the difference is half of it times the rate, and round-off 1e-11 of it.
+/// ε is this fraction of the step, and of the time in which the fastest node moves a representative length or a radian. The
+/// truncation error of the difference is ε/2 times the rate, and its round-off 1e-11 of it.
 const PART: f64 = 1e-4;
 
 /// Constraint rates above this fraction of the speed are reported: the error of forces is a multiple of it.

@@ -47,7 +47,7 @@ pub(crate) struct Accepted<'s> {
     pub(crate) violation: f64,
     /// Error of the prediction of the step's increments [scaled].
     pub(crate) prediction_error: f64,
-    /// Its size over that of the planned step of which it is a part.
+    /// Size of the step as a fraction of the planned step that contains it.
     pub(crate) fraction: f64,
     /// Whether forces have switched at its start.
     pub(crate) has_switched: bool,

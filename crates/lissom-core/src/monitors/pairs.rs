@@ -24,8 +24,7 @@ impl Pairs {
         Self { wait: FIRST, has_first: false, fraction: 0.0 }
     }
 
-    /// Counts a step, or a part of one, of this fraction of a planned one. Whether it is examined: a motion may be solved with
-    /// each planned step in parts.
+    /// Counts a step that is this fraction of a planned step. Returns whether it is examined.
     pub(super) fn is_due(&mut self, fraction: f64) -> bool {
         self.wait = self.wait.saturating_sub(1);
         self.has_first &= fraction == self.fraction;

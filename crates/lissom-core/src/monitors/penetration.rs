@@ -5,7 +5,7 @@ use crate::errors::{Warning, warn};
 use crate::kinematics::{GROUND, Kinematics};
 use crate::system::System;
 
-/// Share of half of the size of two solids, or of the range of stops, that a penetration at the start exceeds only by mistake.
+/// Largest plausible penetration at the start, as a fraction of half the size of the two solids or of the range of a stop.
 const OVERLAP: f64 = 0.1;
 
 /// Reports the first contact that is too deep. Has no state.

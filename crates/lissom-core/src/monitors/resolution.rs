@@ -22,16 +22,16 @@ use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::schemes::ErrorEstimate;
 use std::f64::consts::FRAC_2_PI;
 
-/// Errors that differ by more than this factor from those of the next step, or of the last pair, are due to an instant, not to the
-/// motion.
+/// If the errors of two successive steps, or of two successive pairs, differ by more than this factor, they are due to an
+/// instant, not to the motion.
 const SPIKE: f64 = 4.0;
 /// Maximum error of an oscillation, in amplitudes.
 const MAX_ERROR: f64 = 8.0;
-/// Estimates above this fraction of the model's displacement are reported. If motions amplify errors, those at the end are up to
-/// ten times the estimate: of 10 000 random mechanisms four had errors of 1 to 2.5 % with estimates of 0.15 to 0.19 %.
+/// Estimates above this fraction of the model's displacement are reported. If a motion amplifies errors, the error at the end is
+/// up to ten times the estimate: among 10 000 random mechanisms, four with estimates of 0.15 to 0.19 % had errors of 1 to 2.5 %.
 const NOTEWORTHY: f64 = 1e-3;
-/// Error at the end as a fraction of the errors of instants: of a wheelset's contacts that are resolved to 0.07 % the estimates add up
-/// to 0.12 %, of unresolved friction with an error of 3 % to 0.4 %.
+/// Error at the end as a fraction of the errors at instants. The estimates for a wheelset's contacts, which are resolved to
+/// 0.07 %, sum to 0.12 %; those for unresolved friction with an error of 3 % sum to 0.4 %.
 const INSTANT_SHARE: f64 = 0.4;
 
 /// Estimates for one unknown [scaled].
@@ -44,12 +44,13 @@ struct Missed {
     /// Sums over all pairs: unfiltered errors, and their differences within a pair.
     errors: f64,
     differences: f64,
-    /// Sum of the filtered errors of the steps of instants.
+    /// Sum of the filtered errors of steps that contain an instant.
     instants: f64,
 }
 
 impl Missed {
-    /// Estimated error of the unknown after this number of steps since the last pair, of which `share` remains of a smooth motion.
+    /// Estimated error of the unknown, `steps` steps after the last pair. `share` is the fraction of the sum that remains at the
+    /// end of a smooth motion.
     fn total(&self, pairs: f64, steps: f64, estimate: &ErrorEstimate, share: f64) -> f64 {
         let angle = self.differences / self.errors;
         // The mean of |cos| is 2/π.

@@ -6,8 +6,9 @@
 //! ```
 //!
 //! Legend: F axial force, shear force, torsion or bending moment, q, ê positions at the end of a step and their filtered error
-//! (`error_estimate`), k its order, p order of the scheme, so that each term is the error of a step of the scheme; c factor. Of 35
-//! random mechanisms with beams 15 of the 17 with errors of recorded forces above 1 % are reported, and two of the others, with 0.9 %.
+//! (`error_estimate`), k its order, p order of the scheme, so that each term is the error of a step of the scheme; c factor. In a
+//! test with 35 random mechanisms that have beams, recorded forces of 17 had errors above 1 %: 15 of these are reported, and two
+//! others with errors of 0.9 %.
 
 use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
@@ -80,7 +81,7 @@ impl Monitor for UnresolvedForces {
         displace(&mut self.displaced, system.layout(), &step.integrator.work.error.filtered, 1.0);
         let steps = std::mem::take(&mut self.unexamined);
         let exponent = f64::from(scheme.order + 1) / f64::from(estimate.order);
-        // Of the forces and of the moments.
+        // Largest force and largest moment.
         let mut whole = [0.0_f64; 2];
         let known = self.largest.iter_mut().zip(&mut self.sums);
         for (section, (largest, sums)) in sections(system).zip(known) {

@@ -199,7 +199,7 @@ impl EquilibriumPath {
         (best, best.rate.abs() <= LOCATED * scale)
     }
 
-    /// Change of the number of unstable directions, from the zero of the signature bracketed by the two counts.
+    /// Locates a change of the number of unstable directions: the zero of the signature between the two counts.
     fn change_of_count(
         &mut self,
         start: &State,

@@ -1,10 +1,10 @@
 //! Equilibrium paths under loads multiplied by a load factor, through limit points and snap-back, by arc-length continuation
 //! [Riks 1979; Crisfield 1981].
 //!
-//! The residual at load factor Λ is (1 - Λ) r₀ + Λ r₁, with r₀ that of the system without gravity and loads and r₁ that of the
-//! whole system: loads do not depend on the factor. Along a model parameter the residual is that of the system for its value, and the
-//! derivative by it a finite difference; statements on Λ apply to the parameter, too. Distances along the path are root mean squares
-//! of rotations and of displacements over the model's length; multipliers do not contribute.
+//! The residual at load factor Λ is (1 - Λ) r₀ + Λ r₁, where r₀ is the residual without gravity and loads and r₁ the full
+//! residual: loads do not depend on the factor. Along a model parameter the residual is that of the system for its value, and the
+//! derivative by it a finite difference; statements on Λ apply to the parameter, too. Distances along the path are root mean
+//! squares of rotations and of displacements over the model's length; multipliers do not contribute.
 
 mod branch;
 mod critical;

@@ -93,7 +93,7 @@ fn power_of_two(square: f64) -> f64 {
     if !(square.is_normal() && square > 0.0) {
         return 1.0;
     }
-    // Of 2^e m with 1 <= m < 2 the inverse root lies between 2^(-e/2) and 2^(-(e + 1)/2).
+    // The inverse root of 2^e m with 1 <= m < 2 is between 2^(-e/2) and 2^(-(e + 1)/2).
     let exponent = (square.to_bits() >> fraction).cast_signed() - bias;
     f64::from_bits((bias - (exponent + 1).div_euclid(2)).cast_unsigned() << fraction)
 }

@@ -35,8 +35,8 @@ pub use tangent_values::TangentValues;
 /// The pivot of a redundant constraint's multiplier is this fraction of the terms it is made of, or less.
 const REDUNDANT: f64 = 1e-12;
 
-/// Of the equation of a multiplier whose pivot vanishes, as in a singular position: it stays one of the equations of a step, which it
-/// must determine.
+/// Compliance in the equation of a multiplier whose pivot vanishes, as in a singular position. The equation remains, since the
+/// step must determine the multiplier.
 const COMPLIANCE: f64 = 1e-9;
 
 /// What is factored: one matrix, or those of the decoupled systems of a scheme's stages.
@@ -75,7 +75,7 @@ pub(crate) struct SaddlePoint<M> {
     fall_back: Option<&'static SolverKind>,
     /// The unknown whose pivot vanished, and the pivot, once it was needed.
     fell_back: Option<(usize, f64)>,
-    /// Of the last factorisation, if it has succeeded.
+    /// Report of the last factorisation, if it has succeeded.
     report: Option<FactorReport>,
 }
 

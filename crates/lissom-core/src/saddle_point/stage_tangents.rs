@@ -299,7 +299,7 @@ impl Matrices for StageTangents {
         }
     }
 
-    /// The report is that of the one with the smallest relative pivot, and of the worst cancellation in any of them.
+    /// Reports the system with the smallest relative pivot, with the worst cancellation of all systems.
     fn factor(&mut self) -> Result<FactorReport, FactorError> {
         let mut worst: Option<FactorReport> = None;
         for system in &mut self.systems {

@@ -86,8 +86,8 @@ impl Simulation {
     }
 }
 
-/// The more specific one of the failures of a step and of its parts: the first, unless it reports only missing convergence and a later
-/// one reports the reason.
+/// The more specific of two failures, of a step and of a part of it: the first, unless it reports only missing convergence and
+/// the later one a reason.
 pub(crate) fn more_specific(first: Option<StepError>, later: StepError) -> StepError {
     let is_generic =
         |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });

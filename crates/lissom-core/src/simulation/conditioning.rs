@@ -114,8 +114,9 @@ fn estimate<S: SolverOf>(structure: &Structure, values: &[S]) -> f64 {
 }
 
 impl Simulation {
-    /// The tangent at the solution of the last step under each of the given scalings, of the first decoupled system of a scheme
-    /// of several stages; none before the first step. The solution itself does not depend on the scaling.
+    /// The tangent at the solution of the last step, under each of the given scalings; none before the first step. Schemes with
+    /// several stages have one for each decoupled system, and the first is returned. The solution itself does not depend on the
+    /// scaling.
     pub fn converged_tangents(&mut self, scalings: &[ScalingChoice]) -> Option<Vec<TangentValues>> {
         let (representative, step_size) = (*self.representative(), self.settings().step_size);
         let system = self.settings().scheme.coupling.systems[0];

@@ -1,5 +1,5 @@
-//! Event detection: monitors switching functions for changes of sign within a step, those of events, and of forces with kinks or
-//! jumps. A step across such an instant is repeated, to end there.
+//! Event detection: monitors the switching functions of events, and of forces with kinks or jumps, for changes of sign within a
+//! step. A step across such an instant is repeated and ends there.
 //!
 //! ```text
 //! g(t*) = 0:    t* on the cubics between the ends of the step by bisection, then
@@ -121,7 +121,7 @@ pub(crate) struct EventDetector {
     has_switches: bool,
     /// Number of branch changes at the start of the present step.
     switched_at_start: usize,
-    /// For each value the index of the first one of its group, whose largest magnitude is that of the group.
+    /// For each value the index of the first one in its group. The first one stores the group's largest magnitude.
     leaders: Vec<usize>,
     values: Vec<Switch>,
     /// The values at each of the [`INSTANTS`].
@@ -284,8 +284,8 @@ impl EventDetector {
         self.root_at_end(system, step, size)
     }
 
-    /// Stores the step fractions at which signs are checked: those of samples after the start, and for each function that keeps its
-    /// sign at all of them the minimum of the polynomial through its samples, if the polynomial crosses zero there.
+    /// Stores the step fractions at which signs are checked: the samples after the start, and the minimum of the polynomial
+    /// through the samples of a function, if the polynomial crosses zero there and no sample does.
     fn find_instants(&mut self, events: &[Event]) {
         let mut instants = std::mem::take(&mut self.instants);
         instants.clear();

@@ -9,9 +9,10 @@
 //! at all contacts that touch, at once. Without restitution the impulses dissipate: ΔT = P·(u⁺ + u⁻)/2 = P·u⁺ - P·G P/2 with
 //! P·u⁺ ≤ 0. Restitution at some contacts and friction at others may add energy; e is then reduced until it does not.
 //!
-//! Between impacts the same conditions relate forces and accelerations of the contacts that touch and do not separate. They determine
-//! which contacts open, slide and stick. Forces of contacts that repeat each other are those of least size, as those of joints. If
-//! one of them pulls, it opens; if its friction is beyond its cone, it is saturated, and the others keep the part at rest.
+//! Between impacts the same conditions relate forces and accelerations of the contacts that touch and do not separate. They
+//! determine which contacts open, slide and stick. Forces of redundant contacts have minimum norm, as have reactions of redundant
+//! joints. A contact that pulls opens. A contact whose friction is beyond its cone is saturated, and the others keep the part at
+//! rest.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
@@ -27,13 +28,13 @@ use crate::system::{State, System};
 
 /// Gaps below this fraction of the representative length are closed.
 const CLOSED: f64 = 1e-8;
-/// Changes below this fraction of it, of the gaps of contacts that others keep from closing, are round-off.
+/// If other contacts keep a contact from closing, changes of its gap below this fraction of the length are round-off.
 const BAND: f64 = 1e-9;
 /// The same at the start, where positions are given.
 const CLOSED_AT_START: f64 = 1e-6;
 /// Forces and accelerations below this fraction of the largest are zero.
 const ZERO: f64 = 1e-8;
-/// The same for forces of contacts that repeat each other, whose shares are known to fewer digits.
+/// The same for redundant contacts, whose forces are known to fewer digits.
 const ZERO_SHARE: f64 = 1e-7;
 /// Eigenvalue of normal equations that repeat each other.
 const DEPENDENT: f64 = 1e-10;
@@ -602,7 +603,7 @@ impl Simulation {
             let first = contact.first_multiplier;
             let sticks = mode == Mode::Sticking;
             let own = &mut self.state.multipliers[first..first + contact.multiplier_count()];
-            // Of constraints that are released only round-off remains.
+            // Multipliers of released constraints are round-off only.
             if !mode.is_closed() || sticks {
                 own[0] = 0.0;
             }

@@ -130,8 +130,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// The first of samples, ends of windows of delayed signals, breakpoints and the end of the step, which is at the distance `rest` [s]; `limit` [s] is the end of an
-    /// adaptive step.
+    /// The next stop: a sample, the end of a window of a delayed signal, a breakpoint, or the end of the step, which is at the
+    /// distance `rest` [s]. `limit` [s] is the end of an adaptive step.
     fn next_stop(&self, rest: f64, limit: Option<f64>) -> Stop {
         let (now, longest) = (self.now(), self.control.longest());
         let mut stop = Stop { distance: rest, clock: limit, crossing: None, is_last: true };

@@ -50,7 +50,7 @@ pub struct Snapshot {
     history: SignalHistory,
 }
 
-/// Of the integrator: the tangent in use and the memory of the scheme.
+/// State of the integrator: the tangent in use and the memory of the scheme.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct IntegratorSnapshot {
     scaled: Scaled,

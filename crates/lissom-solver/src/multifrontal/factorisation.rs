@@ -182,7 +182,7 @@ impl<S: Scalar> pulp::WithSimd for FactorPart<'_, S> {
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, simd: V) -> Self::Output {
         let FactorPart { symbolic, values, mut work } = self;
-        // Two vectors of rows, of real or of complex numbers summed twice: twelve sums for six columns. With four
+        // Two vectors of rows, real, or complex with two sums each: twelve sums for six columns. With four
         // lanes or more the processor multiplies and adds in one instruction.
         if V::F64_LANES == 8 && !S::COMPLEX {
             work.factor::<V, true, 16>(simd, symbolic, values)

@@ -131,7 +131,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Positions of the pivots of a front among the numbers of the part.
+    /// Positions of a front's pivots within the part's vector.
     pub(super) fn steps_of(&self, front: &Front) -> Range<usize> {
         let first = front.first - self.steps.start;
         first..first + front.pivots
@@ -166,7 +166,7 @@ pub(super) struct Symbolic {
     has_small: bool,
 }
 
-/// The first step of every group, by its position in the order of elimination, and the steps of every front.
+/// First step of every group, by elimination order, and steps of every front.
 struct Numbering {
     firsts: Vec<u32>,
     steps: Vec<Range<usize>>,

@@ -51,7 +51,7 @@ pub(super) struct SmallFront<S> {
     lower: Box<Aligned<[S; 2 * MAX_SMALL * MAX_SMALL]>>,
     upper: Box<Aligned<[S; 2 * MAX_SMALL * MAX_SMALL]>>,
     reciprocals: [S; MAX_SMALL],
-    /// For each row the sum of the magnitudes of the terms of its diagonal.
+    /// Sum of the magnitudes of the terms of the diagonal, by row.
     pub(super) terms: [f64; 2 * MAX_SMALL],
     largest: f64,
 }

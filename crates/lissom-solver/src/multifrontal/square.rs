@@ -17,13 +17,13 @@ use crate::scalar::{Scalar, array, array_mut};
 /// Columns of the inner blocks.
 const WIDTH: usize = PADDING;
 
-/// Memory for the factorisation of a square of any of the fronts.
+/// Memory for the factorisation of any front's square.
 pub(super) struct SquareWork<S> {
     /// `U11ᵀ` without its diagonal, columns of the same stride as those of the square; zero above the diagonal.
     pub(super) transposed: Vec<S>,
     /// Reciprocals of the pivots.
     pub(super) reciprocals: Vec<S>,
-    /// For each row of the front the sum of the magnitudes of the terms of its diagonal.
+    /// Sum of the magnitudes of the terms of the diagonal, by row of the front.
     pub(super) terms: Vec<f64>,
 }
 
@@ -180,7 +180,7 @@ impl<S: Scalar> SquareWork<S> {
         }
     }
 
-    /// Rows of U to the right of the block, columns of L below it, and the update of the rest.
+    /// Computes the rows of U right of the block and the columns of L below it, and updates the rest.
     #[inline(always)]
     fn eliminate_block<V: Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,

@@ -16,8 +16,8 @@ pub(super) struct Supernode {
     pub(super) time: f64,
 }
 
-/// Model of the time of a front, in cycles of a processor with vectors of eight numbers: one factorisation and the
-/// solves that follow it. Only ratios matter, and only roughly.
+/// Time that a front takes for one factorisation and the solves that follow it, in cycles of a processor with vectors of eight
+/// numbers. Only ratios matter, and only roughly.
 mod cost {
     /// Typical number of solves with the same factors.
     pub(super) const SOLVES: f64 = 20.0;

@@ -10,8 +10,8 @@ use crate::report::{FactorError, FactorReport};
 use crate::solver::LinearSolver;
 use crate::structure::Structure;
 
-/// Multifrontal LDLᵀ without pivoting. Of each pair of symmetric entries the one in the row that is eliminated later
-/// is read. Complex matrices are symmetric, not Hermitian.
+/// Multifrontal LDLᵀ without pivoting. Only one entry of each symmetric pair is read, the one in the row that is eliminated
+/// later. Complex matrices are symmetric, not Hermitian.
 pub struct Symmetric<S>(Multifrontal<S>);
 
 impl<S: Kernels> Symmetric<S> {

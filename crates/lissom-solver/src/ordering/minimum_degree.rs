@@ -10,10 +10,10 @@ use std::collections::BinaryHeap;
 use super::GroupGraph;
 use crate::structure::{Group, HostCount, Structure};
 
-/// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: directly after
-/// the last of them and after the groups that are eliminated with that host without fill. Deterministic; of equal
-/// candidates the group whose degree has been unchanged for longest is chosen, then the smaller index. A chain of
-/// equal links is therefore eliminated from both ends, and its two halves can be eliminated in parallel.
+/// Elimination order of the groups with little fill. Every group follows its last host, and the groups that are eliminated with
+/// that host without fill. Deterministic: among equal candidates the group whose degree has been unchanged for longest is chosen,
+/// then the smaller index. A chain of equal links is therefore eliminated from both ends, and its two halves can be eliminated in
+/// parallel.
 ///
 /// # Panics
 /// If [`Structure::check`] rejects the structure.
@@ -21,9 +21,9 @@ pub fn minimum_degree_order(structure: &Structure) -> Vec<usize> {
     order(structure, &GroupGraph::new(structure))
 }
 
-/// Order of elimination of the groups' columns that keeps fill small for any choice of pivot rows: minimum degree of AᵀA,
-/// whose factor contains that of every such elimination (George and Ng 1985, SIAM J. Sci. Stat. Comput. 6, 390). Groups do
-/// not wait for their hosts.
+/// Elimination order of the groups' columns with little fill for any choice of pivot rows: minimum degree of AᵀA, whose factor
+/// contains the factor of every such elimination (George and Ng 1985, SIAM J. Sci. Stat. Comput. 6, 390). Groups do not wait for
+/// their hosts.
 pub(crate) fn column_order(structure: &Structure) -> Vec<usize> {
     let free = |group: &Group| Group { hosts: Vec::new(), ..group.clone() };
     let groups = structure.groups.iter().map(free).collect();

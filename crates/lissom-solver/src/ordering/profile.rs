@@ -7,8 +7,7 @@
 use super::GroupGraph;
 use crate::structure::{Structure, in_host_order};
 
-/// Order of elimination of the groups that keeps the profile small, with every group directly after the last of its
-/// hosts. Deterministic.
+/// Elimination order of the groups with a small profile. Every group directly follows its last host. Deterministic.
 ///
 /// # Panics
 /// If [`Structure::check`] rejects the structure.

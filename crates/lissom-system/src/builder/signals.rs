@@ -61,8 +61,8 @@ impl Builder {
         self.add_measurement(FrameQuantity::new(Position, ground, None, None, Motion::identity()))
     }
 
-    /// Makes a measurement that of a component of a quantity of an element. Returns whether there is one with a gradient: not of
-    /// loads scaled by signals, nor of elements without an elongation or with too many unknowns.
+    /// Connects a measurement to one component of an element's quantity. Returns whether the quantity has a gradient. Loads
+    /// scaled by signals, and elements without an elongation or with too many unknowns, have none.
     pub fn measure_element(
         &mut self,
         measurement: MeasurementId,

@@ -24,8 +24,8 @@ use super::scheme::{
 use crate::tuning::{Tuning, TuningParameter};
 use lissom_mechanics::round_off;
 
-/// Of the phase at which an oscillation has that error: motions consist of more than one, and errors grow with a higher power of the
-/// frequency than their estimates.
+/// Factor of the phase at which a single oscillation has the allowed error. Motions consist of several oscillations, and errors
+/// grow with a higher power of the frequency than their estimates.
 const MARGIN: f64 = 0.6;
 
 /// A stiffly accurate scheme with stages at these abscissae, the last of them 1, from A⁻¹.
@@ -73,17 +73,17 @@ fn quadrature<const S: usize>(inverse: &SMatrix<f64, S, S>) -> Vec<f64> {
     transposed.lu().solve(&last).map_or_else(Vec::new, |weights| weights.iter().copied().collect())
 }
 
-/// Error of a step for an oscillation of unit amplitude over the power 2 S of its phase per step, that of Radau's quadrature with S
-/// points, of position and velocity or of a first-order state.
+/// Error of a step for an oscillation of unit amplitude, divided by its phase per step to the power 2 S: for position and
+/// velocity, and for a first-order state. It is the error of Radau's quadrature with S points.
 fn error_constants(stages: usize) -> [f64; 2] {
     let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
     let quadrature = 0.5 * stages as f64 * factorial(stages - 1).powi(4) / factorial(2 * stages - 1).powi(3);
     [(2 * stages - 1) as f64 * quadrature, quadrature]
 }
 
-/// Estimates of the error from the difference between what the polynomials through the stages have at the start and what the start
-/// has: accelerations and velocities. Of an oscillation one is large where the other vanishes. Scaled for an oscillation whose
-/// steps each have half the error that is proportional to the tolerance at the end:
+/// Error estimates: the differences at the start between the polynomials through the stages and the state, for accelerations and
+/// for velocities. In an oscillation one is large where the other vanishes. Scaled for an oscillation whose steps each have half
+/// the error that is proportional to the tolerance at the end:
 ///
 /// ```text
 /// f₁ (q''_0 - Σ_j w_j'(0) (A⁻¹ D)_j) ≈ f₁ Π c_i/(S + 1)! q^(S+2),      f₂ Σ_j w_j'(0) D_j ≈ f₂ Π c_i/(S + 1)! q^(S+1),      C φ^(2 S) = 1/2
@@ -114,10 +114,10 @@ fn estimates(abscissae: &[f64], stages: &[Stage], dense: &DensePolynomial) -> [E
     [scaled(accelerations, count + 2, constants[0]), scaled(rates, count + 1, constants[1])]
 }
 
-/// Of the sum of the estimated errors, the error at the end: with a constant step size both are of different order, and related
-/// where errors become noteworthy.
+/// Error at the end of a run with constant step size, as a fraction of the sum of the estimated errors. Both have different
+/// orders in the step size; the fraction is evaluated where errors become noteworthy.
 fn planned_share(stages: usize, error: &ErrorEstimate) -> f64 {
-    /// Error of a step of which some hundred have a noteworthy error.
+    /// Error of a step that becomes noteworthy after some hundred steps.
     const NOTEWORTHY: f64 = 1e-5;
     /// Part of the sum that remains at the end, as with one stage.
     const REMAINING: f64 = 0.8;

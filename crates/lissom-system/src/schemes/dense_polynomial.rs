@@ -24,7 +24,7 @@ pub struct DensePolynomial {
     basis: Vec<Vec<f64>>,
 }
 
-/// Linear combinations of the increments and the start at a step fraction; of velocities, that of a change of q'_0 in positions.
+/// Motion at a step fraction, as linear combinations of the increments and the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DenseWeights {
     /// The increment.

@@ -13,18 +13,18 @@ pub const MAX_STAGES: usize = 7;
 /// Coefficients of a linear combination.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Combination {
-    /// Of each stage's increment.
+    /// Coefficient of each stage's increment.
     pub increments: [f64; MAX_STAGES],
-    /// Of the velocity q' at the start.
+    /// Coefficient of the velocity q' at the start.
     pub velocity: f64,
-    /// Of the scheme's algorithmic acceleration at the start, which is similar to q''.
+    /// Coefficient of the scheme's algorithmic acceleration at the start, which is similar to q''.
     pub algorithmic: f64,
-    /// Of the acceleration q'' at the start.
+    /// Coefficient of the acceleration q'' at the start.
     pub acceleration: f64,
 }
 
 impl Combination {
-    /// Of the increments alone, with these coefficients.
+    /// A combination of increments only, with these coefficients.
     pub fn of_increments(coefficients: &[f64]) -> Self {
         let mut increments = [0.0; MAX_STAGES];
         increments[..coefficients.len()].copy_from_slice(coefficients);
@@ -100,12 +100,12 @@ pub struct Decoupled<T> {
     pub right: [T; MAX_STAGES],
 }
 
-/// A decoupled system of a real eigenvalue, or of a complex conjugate pair.
+/// A decoupled system, one for each real eigenvalue or complex conjugate pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StageSystem {
-    /// Of a real eigenvalue.
+    /// For a real eigenvalue.
     Real(Decoupled<f64>),
-    /// Of a pair of complex conjugates.
+    /// For a complex conjugate pair.
     Complex(Decoupled<Complex64>),
 }
 
@@ -157,8 +157,8 @@ impl Tableau {
     }
 }
 
-/// Estimate of the error of a step, a linear combination of its increments and its start. It is scaled so that errors at the end of
-/// a run are of the size of τ, if those of all steps are half of τ to the power of `order` over the order of the scheme.
+/// Error estimate for a step, a linear combination of its increments and its start. If the estimate of every step is τ^(k/p)/2,
+/// with its `order` k and the order p of the scheme, the error at the end of a run is about τ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ErrorEstimate {
     /// The estimate.

@@ -205,7 +205,7 @@ impl RecoveryMatrix {
         system.violation_rates(at, &self.starts, out);
     }
 
-    /// Left-hand sides of the equations of motion at the positions of the matrix; zero in all other rows.
+    /// Left-hand sides of the equations of motion in the coordinate rows; zero in the other rows.
     pub(super) fn residual(&self, system: &System, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
         system.residual(&self.point(at, multipliers), out);
         out[system.layout().coordinate_count()..].fill(0.0);
