@@ -7,7 +7,8 @@ use lissom::start::lower;
 use lissom::{Model, Record};
 use lissom_motion::{Rotation, Vector3};
 
-use super::{EVERY_KIND, run, set};
+use super::kinds::EVERY_KIND;
+use crate::support::runs::{run, set};
 
 /// Sliders of all orientations on an arc that swings and twists under its weight.
 const SLIDERS: &str = r#"

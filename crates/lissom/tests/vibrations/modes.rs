@@ -489,7 +489,7 @@ fn a_mechanism_that_is_driven_has_no_modes() {
 /// A rotor that turns freely: hub, disc on a cross of two axes with springs, both without anything that holds their rotation.
 const FREE_ROTOR: &str = concat!(
     "lissom = 1\n",
-    include_str!("support/rotor.toml"),
+    include_str!("../support/rotor.toml"),
     "stiffness = 3000\n[analysis]\nkind = \"modes\"\n"
 );
 

@@ -108,7 +108,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass falls",
         called: "LoadMassProportional",
-        text: include_str!("published/mass.toml"),
+        text: include_str!("mass.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| -0.5 * 9.81, 1e-13)),
@@ -117,7 +117,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass on springs along three axes",
         called: "ObjectConnectorCartesianSpringDamper",
-        text: include_str!("published/three-springs.toml"),
+        text: include_str!("three-springs.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| oscillation([5.0, 250.0, 5000.0], -5.0, [0.0, 0.0], 1.0), 1e-14)),
@@ -126,7 +126,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass that is led",
         called: "ObjectConnectorCoordinate",
-        text: include_str!("published/led-mass.toml"),
+        text: include_str!("led-mass.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| 0.05, 1e-13)),
@@ -135,7 +135,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass on a cubic spring",
         called: "ObjectConnectorCoordinateSpringDamper",
-        text: include_str!("published/cubic-spring.toml"),
+        text: include_str!("cubic-spring.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((
@@ -147,7 +147,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a point pendulum on a distance",
         called: "ObjectConnectorDistance",
-        text: include_str!("published/distance-pendulum.toml"),
+        text: include_str!("distance-pendulum.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| motion(&|_, [angle, _]| -9.81 * angle.cos(), [0.0, 0.0], 1.0).cos(), 1e-10)),
@@ -156,7 +156,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a slide on a spring",
         called: "ObjectConnectorLinearSpringDamper",
-        text: include_str!("published/slide.toml"),
+        text: include_str!("slide.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| oscillation([1.0, 20.0, 2000.0], 1.0, [0.0, 0.0], 1.0), 1e-13)),
@@ -165,7 +165,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a body on a bushing",
         called: "ObjectConnectorRigidBodySpringDamper",
-        text: include_str!("published/bushing.toml"),
+        text: include_str!("bushing.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| oscillation([1.0, 5.0, 500.0], 0.0, [0.0, 1000.0], 1.0), 1e-07)),
@@ -174,7 +174,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass on a spring that is stretched",
         called: "ObjectConnectorSpringDamper",
-        text: include_str!("published/stretched-spring.toml"),
+        text: include_str!("stretched-spring.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| 1.0 + oscillation([1.0, 1.0, 100.0], 0.0, [0.05, 0.0], 1.0), 1e-11)),
@@ -183,7 +183,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a hinge on a spring",
         called: "ObjectConnectorTorsionalSpringDamper",
-        text: include_str!("published/hinge-spring.toml"),
+        text: include_str!("hinge-spring.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| oscillation([1.0, 20.0, 2000.0], 1.0, [0.0, 0.0], 1.0), 1e-13)),
@@ -192,7 +192,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a hinge under a moment",
         called: "ObjectJointRevoluteZ",
-        text: include_str!("published/hinge-moment.toml"),
+        text: include_str!("hinge-moment.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| 0.5, 1e-13)),
@@ -201,7 +201,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a rod that swings from level",
         called: "ObjectKinematicTree",
-        text: include_str!("published/rod.toml"),
+        text: include_str!("rod.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((
@@ -213,7 +213,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass that goes on",
         called: "ObjectMass1D, ObjectMassPoint, ObjectMassPoint2D",
-        text: include_str!("published/free-mass.toml"),
+        text: include_str!("free-mass.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| 2.0, 1e-13)),
@@ -222,7 +222,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a body that goes on and turns",
         called: "ObjectRigidBody2D",
-        text: include_str!("published/free-body.toml"),
+        text: include_str!("free-body.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| 2.0 + 0.75 * PI, 1e-09)),
@@ -231,7 +231,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a rotor that goes on",
         called: "ObjectRotationalMass1D",
-        text: include_str!("published/free-rotor.toml"),
+        text: include_str!("free-rotor.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| 2.0, 1e-13)),
@@ -240,7 +240,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a sweep on a cubic spring",
         called: "springDamperUserFunctionTest",
-        text: include_str!("published/sweep.toml"),
+        text: include_str!("sweep.toml"),
         end: 50.0,
         step: 1e-3,
         exact: Some((
@@ -260,7 +260,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a body on springs and dampers with six degrees of freedom",
         called: "connectorRigidBodySpringDamperTest",
-        text: include_str!("published/six-springs.toml"),
+        text: include_str!("six-springs.toml"),
         end: 0.1,
         step: 1e-4,
         exact: Some((
@@ -276,7 +276,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a four-bar of point masses",
         called: "fourBarMechanismTest",
-        text: include_str!("published/four-bar.toml"),
+        text: include_str!("four-bar.toml"),
         end: 2.0,
         step: 1e-3,
         exact: None,
@@ -285,7 +285,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "two bodies with products of inertia on a hinge and a ball",
         called: "rigidBodyCOMtest",
-        text: include_str!("published/two-bodies.toml"),
+        text: include_str!("two-bodies.toml"),
         end: 1.0,
         step: 1e-3,
         exact: None,
@@ -294,7 +294,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a chain of four bodies on balls",
         called: "sphericalJointTest",
-        text: include_str!("published/chain.toml"),
+        text: include_str!("chain.toml"),
         end: 1.0,
         step: 1e-3,
         exact: None,
@@ -303,7 +303,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "four satellites about a star",
         called: "connectorGravityTest",
-        text: include_str!("published/satellites.toml"),
+        text: include_str!("satellites.toml"),
         end: 1e6,
         step: 50.0,
         // The farthest, on its circle; the star is heavier by 1e17.
@@ -319,7 +319,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "two trees of links that are led",
         called: "createKinematicTreeTest",
-        text: include_str!("published/link-trees.toml"),
+        text: include_str!("link-trees.toml"),
         end: 1.2,
         step: 5e-4,
         exact: None,
@@ -328,7 +328,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a wheel on a table that is braked from an event on",
         called: "rotatingTableTest",
-        text: include_str!("published/rotating-table.toml"),
+        text: include_str!("rotating-table.toml"),
         end: 5.0,
         step: 2.5e-3,
         exact: None,
@@ -337,7 +337,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a pendulum that lets go of a mass and of its pivot",
         called: "switchingConstraintsPendulum",
-        text: include_str!("published/released-pendulum.toml"),
+        text: include_str!("released-pendulum.toml"),
         end: 2.0,
         step: 1e-3,
         exact: Some((
@@ -357,7 +357,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "a mass that sticks and slips on bristles",
         called: "lugreFrictionTest",
-        text: include_str!("published/bristle.toml"),
+        text: include_str!("bristle.toml"),
         end: 25.0,
         step: 1e-3,
         exact: None,
@@ -366,7 +366,7 @@ const EXUDYN: &[Published] = &[
     Published {
         name: "two shafts and a cross",
         called: "universalJoint",
-        text: include_str!("published/universal-joint.toml"),
+        text: include_str!("universal-joint.toml"),
         end: 6.0,
         step: 2e-3,
         // The second shaft goes round as often as the first.
@@ -386,7 +386,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a body on a screw along an oblique axis",
         called: "joints/screw/screw_test_1",
-        text: include_str!("published/screw.toml"),
+        text: include_str!("screw.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((
@@ -402,7 +402,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "two geared rotors under a moment for half a second",
         called: "joints/total/gear",
-        text: include_str!("published/gear.toml"),
+        text: include_str!("gear.toml"),
         end: 2.0,
         step: 1e-2,
         exact: Some((|| -5.0, 1e-12)),
@@ -411,7 +411,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a body that cannot turn, on springs along three axes",
         called: "joints/deformablehinge/deformabledisplacementjoint0",
-        text: include_str!("published/bushing-slide.toml"),
+        text: include_str!("bushing-slide.toml"),
         end: 0.15,
         step: 1e-4,
         exact: Some((
@@ -427,7 +427,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a mass that falls towards a centre",
         called: "body/centralgravity",
-        text: include_str!("published/central-gravity.toml"),
+        text: include_str!("central-gravity.toml"),
         end: 1.0,
         step: 1e-3,
         exact: Some((|| motion(&|_, [place, _]| -0.667_384 / (place * place), [1.0, 0.0], 1.0), 1e-12)),
@@ -436,7 +436,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "states on their way to a limit cycle",
         called: "genel/hopf-bifurcation/hb",
-        text: include_str!("published/limit-cycle.toml"),
+        text: include_str!("limit-cycle.toml"),
         end: 5.0,
         step: 5e-3,
         exact: Some((
@@ -454,7 +454,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a pendulum with drag",
         called: "forces/force/pendulum-drag",
-        text: include_str!("published/drag-pendulum.toml"),
+        text: include_str!("drag-pendulum.toml"),
         end: 2.0,
         step: 1e-3,
         exact: Some((
@@ -470,7 +470,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a motor with the current as a state",
         called: "elec/motor",
-        text: include_str!("published/motor.toml"),
+        text: include_str!("motor.toml"),
         end: 0.1,
         step: 1e-4,
         exact: Some((
@@ -490,7 +490,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a reed that is blown",
         called: "genel/clarinet-reed/cr",
-        text: include_str!("published/reed.toml"),
+        text: include_str!("reed.toml"),
         end: 2.0,
         step: 2e-3,
         exact: Some((
@@ -502,7 +502,7 @@ const MBDYN: &[Published] = &[
     Published {
         name: "a hinge that is held after half a second",
         called: "driven/initialassembly",
-        text: include_str!("published/latched-hinge.toml"),
+        text: include_str!("latched-hinge.toml"),
         end: 1.0,
         step: 1e-2,
         exact: Some((|| 0.5, 2e-8)),

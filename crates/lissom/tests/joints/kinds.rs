@@ -2,12 +2,10 @@
 
 use crate::support::runs;
 
-mod rates;
-
 use lissom::{Model, Record};
 use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
 
-const EVERY_KIND: &str = include_str!("models/every_kind.toml");
+pub(crate) const EVERY_KIND: &str = include_str!("../models/every_kind.toml");
 const OUTPUTS: &str = "
 [outputs.nut]
 kind = \"position\"

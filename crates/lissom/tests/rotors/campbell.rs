@@ -39,7 +39,7 @@ speed = 10.0
 [initial]
 angular_velocity = ["speed", 0, 0]
 "#,
-    include_str!("support/rotor.toml"),
+    include_str!("../support/rotor.toml"),
     r#"stiffness = 2000
 [analysis]
 kind = "dynamics"

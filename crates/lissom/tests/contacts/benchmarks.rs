@@ -2,7 +2,7 @@
 
 use lissom::Model;
 
-use crate::contacts::{last, run, series};
+use crate::contacts::between_parts::{last, run, series};
 
 /// Keys of a contact that is almost rigid, and of one that is rigid.
 const LAWS: [&str; 2] = ["stiffness = 1e7\ndissipation = 1", "rigid = true"];

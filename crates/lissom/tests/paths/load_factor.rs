@@ -73,7 +73,7 @@ fn a_steep_truss_bifurcates_before_its_limit() {
 }
 
 /// Lee's frame in its plane: two beams of length 120 at a right angle, hinged at both ends.
-const LEE: &str = include_str!("../../../verification/lee-frame/limit.toml");
+const LEE: &str = include_str!("../../../../verification/lee-frame/limit.toml");
 
 #[test]
 fn lees_frame_passes_both_limits_and_its_snap_back() {
@@ -116,7 +116,7 @@ fn lees_stiff_frame_has_the_limits_of_the_inextensible_one() {
     near(limits[1], -9421.0, 1e-4);
 }
 
-const ARCH: &str = include_str!("../../../verification/deep-arch/model.toml");
+const ARCH: &str = include_str!("../../../../verification/deep-arch/model.toml");
 
 #[test]
 fn the_deep_arch_has_its_limit() {
@@ -224,7 +224,7 @@ fn the_deep_arch_goes_on_beyond_its_limit() {
     assert!(least < 500.0, "down to {least}");
 }
 
-const BEND: &str = include_str!("../../../verification/bend-45/model.toml");
+const BEND: &str = include_str!("../../../../verification/bend-45/model.toml");
 
 /// Shooting of the rod in space, 17 digits, as in the verification of the same bend by load steps.
 #[test]

@@ -170,7 +170,7 @@ fn a_hinged_shallow_arch_sways_on_its_branch() {
     near(last("u2"), -1.667_859_91, 1e-5);
 }
 
-const FRAME: &str = include_str!("../../../verification/right-angle-frame/model.toml");
+const FRAME: &str = include_str!("../../../../verification/right-angle-frame/model.toml");
 
 /// Shooting of the rod's equations in space: at a load of 1.16772834 the tip has moved by (16.6370672, 12.71709085, ±40).
 #[test]

@@ -2,7 +2,7 @@
 
 use lissom::{Model, Record, SessionError};
 
-use crate::contacts::{last, run, series};
+use crate::contacts::between_parts::{last, run, series};
 
 fn problems(text: &str) -> String {
     match Model::from_text("contact.toml", text).session(&[]) {
@@ -223,7 +223,7 @@ fn a_roller_follows_a_cam_until_it_lifts_off() {
 /// The wheel of a Geneva drive turns by a quarter in each revolution of the crank, and waits in between.
 #[test]
 fn a_geneva_drive_turns_by_quarters() {
-    let record = run(include_str!("../../../examples/geneva-drive.toml"), &[]);
+    let record = run(include_str!("../../../../examples/geneva-drive.toml"), &[]);
     let angles = series(&record, "wheel.angle");
     for (turn, time) in [(1.0, 1.5), (2.0, 3.1), (3.0, 4.7), (4.0, 6.1)] {
         let index = record.times.iter().position(|&own| own > time).expect("within the run");

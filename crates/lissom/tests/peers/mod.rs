@@ -24,7 +24,7 @@ struct Peer {
 const PEERS: &[Peer] = &[
     Peer {
         file: "TestModels/createContactSphereSphere.py",
-        text: include_str!("peers/two-balls.toml"),
+        text: include_str!("two-balls.toml"),
         quantity: "position of the first ball after the impact [m]",
         number: -0.217_048_802_71,
         within: 2e-10,
@@ -32,7 +32,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "TestModels/contactSphereSphereTest.py",
-        text: include_str!("peers/bouncing-ball.toml"),
+        text: include_str!("bouncing-ball.toml"),
         quantity: "position after six impacts [m]",
         number: 0.324_146_0,
         within: 3e-7,
@@ -40,7 +40,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "Examples/newtonsCradle.py",
-        text: include_str!("peers/newtons-cradle.toml"),
+        text: include_str!("newtons-cradle.toml"),
         quantity: "displacement of the first ball at 0.5 s, for a coefficient of restitution of 1 [m]",
         number: -0.245_875_25,
         within: 1e-7,
@@ -48,7 +48,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "Examples/camFollowerExample.py",
-        text: include_str!("peers/cam.toml"),
+        text: include_str!("cam.toml"),
         quantity: "displacement of the follower at 0.53 s [m]",
         number: -0.006_810_127_358,
         within: 1e-10,
@@ -57,7 +57,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "TestModels/contactCurveExample.py",
-        text: include_str!("peers/lever-in-a-tray.toml"),
+        text: include_str!("lever-in-a-tray.toml"),
         quantity: "angle of the lever in the tray at 1 s [rad]",
         number: 2.236_783,
         within: 3e-6,
@@ -65,7 +65,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "TestModels/generalContactImplicit2.py",
-        text: include_str!("peers/sliding-ball.toml"),
+        text: include_str!("sliding-ball.toml"),
         quantity: "distance at rest [m]",
         number: 0.5 + 0.5e-8,
         within: 1e-9,
@@ -74,7 +74,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "TestModels/rotatingTableTest.py",
-        text: include_str!("peers/wheel-on-a-turntable.toml"),
+        text: include_str!("wheel-on-a-turntable.toml"),
         quantity: "angle of the turntable at 2.4 s, with the wheel on a compliant contact of 1e8 N/m [rad]",
         number: 0.186_731_60,
         within: 4e-7,
@@ -83,7 +83,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "TestModels/hydraulicActuatorSimpleTest.py",
-        text: include_str!("peers/hydraulic-arm.toml"),
+        text: include_str!("hydraulic-arm.toml"),
         quantity: "angle of the arm at 0.4 s [rad]",
         number: 0.024_583_595_76,
         within: 1e-10,
@@ -91,7 +91,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "Examples/HydraulicActuator2Arms.py",
-        text: include_str!("peers/two-hydraulic-arms.toml"),
+        text: include_str!("two-hydraulic-arms.toml"),
         quantity: "horizontal displacement of the second arm at 2 s [m]",
         number: 0.061_321_416_5,
         within: 2e-10,
@@ -99,7 +99,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "TestModels/ANCFcontactCircleTest.py",
-        text: include_str!("peers/cable-on-rollers.toml"),
+        text: include_str!("cable-on-rollers.toml"),
         quantity: "vertical displacement of the end in equilibrium [m]",
         number: -0.466_4,
         within: 1e-3,
@@ -107,7 +107,7 @@ const PEERS: &[Peer] = &[
     },
     Peer {
         file: "tests/drives/drivecallers/discretefilter (MBDyn)",
-        text: include_str!("peers/filtered-force.toml"),
+        text: include_str!("filtered-force.toml"),
         quantity: "displacement at 1 s [m]",
         number: 0.573_821_381_527_984,
         within: 1e-10,
@@ -168,7 +168,7 @@ fn the_number_of_the_filtered_force_is_that_of_its_difference_equation() {
 /// that the original states there. With five elements it obtains 27.2488 and 27.3011 Hz instead of 27.32918.
 #[test]
 fn a_wing_that_can_only_twist_vibrates_more_slowly_in_the_wind() {
-    let model = Model::from_text("wing.toml", include_str!("peers/diverging-wing.toml"));
+    let model = Model::from_text("wing.toml", include_str!("diverging-wing.toml"));
     let request = ModeRequest {
         count: Some(3),
         about: Some(OperatingPoint::Static),

@@ -5,7 +5,7 @@ use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, SessionError};
 use lissom_core::linearized::ModeKind;
 
-const MODEL: &str = include_str!("../../../verification/wheelset/model.toml");
+const MODEL: &str = include_str!("../../../../verification/wheelset/model.toml");
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 

@@ -1,0 +1,6 @@
+//! Rotors: bearings, whirl and critical speeds.
+
+mod bearings;
+mod campbell;
+mod multiblade;
+mod shaft;

@@ -1,0 +1,6 @@
+//! Signals, events and functions of time.
+
+mod breakpoints;
+mod delays;
+mod events;
+mod feedback;
