@@ -1,12 +1,13 @@
 //! Derivatives along the steps against central differences of whole runs.
 
-use crate::support::cantilever;
-use crate::support::rail;
-
 use cantilever::CANTILEVER;
 use lissom::analysis::{AnalysisError, Origin};
 use lissom::gradient::{Confirmation, GradientError, Method, Target, gradient};
 use lissom::{Model, Override};
+
+use crate::support::cantilever;
+use crate::support::rail;
+use crate::support::runs::overrides;
 
 /// The measure's value of a whole run with a number changed.
 fn measured(model: &Model, column: (&str, &str), over: &str, set: &[Override]) -> f64 {
@@ -65,10 +66,6 @@ fn agrees(
     }
 }
 
-fn set(overrides: &[(&str, &str)]) -> Vec<Override> {
-    overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect()
-}
-
 /// Two rods swing under gravity, the lower one on a spring.
 const SWING: &str = r#"
 lissom = 1
@@ -123,7 +120,7 @@ const NUMBERS: [(&str, f64); 4] = [
 #[test]
 fn a_mechanism_is_differentiated_with_every_scheme() {
     for scheme in ["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] {
-        let set = set(&[("analysis.scheme", scheme)]);
+        let set = overrides(&[("analysis.scheme", scheme)]);
         agrees(SWING, "lower.z", ("lower", "z"), &NUMBERS, &set, 1e-6);
     }
 }
@@ -161,7 +158,7 @@ fn questions_without_sense_are_refused() {
     assert!(matches!(refuse("lower.z", "bodies.lower.inertia", &[]), GradientError::Number(_)));
     assert!(matches!(refuse("lower.z", "analysis.step", &[]), GradientError::Number(_)));
     assert!(matches!(refuse("lower.z", "springs.elbow", &[]), GradientError::Number(_)));
-    let still = set(&[("springs.elbow.damping", "0")]);
+    let still = overrides(&[("springs.elbow.damping", "0")]);
     assert!(matches!(refuse("lower.z", "springs.elbow.damping", &still), GradientError::Number(_)));
     assert!("lower.z@often".parse::<Target>().is_err());
 }
@@ -212,7 +209,7 @@ fn derivatives_that_are_carried_have_seven_digits() {
         // Integrated strains are far from linear in what moves little.
         let distance = if scheme == "energy-decaying" { 5e-4 } else { 5e-3 };
         let numbers = NUMBERS.map(|(path, number)| (path, number, distance));
-        let set = set(&[("analysis.scheme", scheme)]);
+        let set = overrides(&[("analysis.scheme", scheme)]);
         for (of, column) in [
             ("lower.z", ("lower", "z")),
             ("pivot.f3", ("pivot", "f3")),
@@ -231,7 +228,7 @@ fn a_tip_crank_is_differentiated_with_every_scheme() {
     let model = Model::from_text("model.toml", include_str!("../../../examples/tip-crank.toml"));
     let numbers = [("materials.aluminium.E", 73e9, 4e-3), ("sections.strip.width", 0.0025, 4e-3)];
     for scheme in CARRIED {
-        let set = set(&[("analysis.end", "0.02"), ("analysis.scheme", scheme)]);
+        let set = overrides(&[("analysis.end", "0.02"), ("analysis.scheme", scheme)]);
         // Three stages multiply rounding of the whole runs' reactions by larger weights.
         let tolerance = if scheme == "radau-iia-5" { 3e-7 } else { 1e-7 };
         agrees_closely(&model, "root.f3", ("root", "f3"), &numbers, &set, tolerance);
@@ -246,7 +243,8 @@ fn a_turbine_is_differentiated_with_every_scheme() {
     for scheme in CARRIED {
         // Blades that hardly bend: what rounding leaves of integrated strains is a part of them.
         let tolerance = if scheme == "energy-decaying" { 1e-6 } else { 1e-7 };
-        let set = set(&[("parameters.speed", "4.0"), ("analysis.end", "0.1"), ("analysis.scheme", scheme)]);
+        let set =
+            overrides(&[("parameters.speed", "4.0"), ("analysis.end", "0.1"), ("analysis.scheme", scheme)]);
         agrees_closely(&model, "blade1.tip.u1", ("blade1.tip", "u1"), &numbers, &set, tolerance);
     }
 }
@@ -260,7 +258,7 @@ fn a_four_bar_is_differentiated_over_time() {
         .replace("D = [0.24, 0, 0]", "D = [\"reach\", 0, 0]");
     let model = Model::from_text("model.toml", &text);
     for scheme in CARRIED {
-        let set = set(&[("analysis.end", "0.3"), ("analysis.scheme", scheme)]);
+        let set = overrides(&[("analysis.end", "0.3"), ("analysis.scheme", scheme)]);
         let drive = ("drive", "moment");
         let mass = [("sections.stiff.mass.per_length", 1.9968, 1e-2)];
         // Forces that are recovered are differenced over some thousandths of a number; with three stages, whose recovery differences
@@ -354,7 +352,7 @@ fn a_beam_that_starts_from_rest_is_differentiated() {
     let model = Model::from_text("model.toml", &text);
     let numbers = [("parameters.EI", 200.0, 4e-3), ("sections.bar.mass.per_length", 1.0, 4e-3)];
     for scheme in CARRIED {
-        let set = set(&[("analysis.scheme", scheme)]);
+        let set = overrides(&[("analysis.scheme", scheme)]);
         agrees_closely(&model, "tip.u3", ("tip", "u3"), &numbers, &set, 1e-8);
         agrees_closely(&model, "root.m2@max", ("root", "m2"), &numbers, &set, 1e-7);
     }
@@ -363,7 +361,7 @@ fn a_beam_that_starts_from_rest_is_differentiated() {
 #[test]
 fn a_flexible_mechanism_is_differentiated() {
     let text = include_str!("../../../examples/tip-crank.toml");
-    let set = set(&[("analysis.end", "0.02"), ("analysis.output_every", "1")]);
+    let set = overrides(&[("analysis.end", "0.02"), ("analysis.output_every", "1")]);
     let numbers = [("materials.aluminium.E", 73e9), ("materials.aluminium.density", 2700.0)];
     agrees(text, "root.f3", ("root", "f3"), &numbers, &set, 1e-5);
 }

@@ -5,6 +5,8 @@ use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session, SessionError};
 
+use crate::support::sessions::finished;
+
 const BEAM: &str = r#"
 lissom = 1
 [sections.bar]
@@ -37,16 +39,6 @@ ANALYSIS
 
 fn beam(order: usize, force: &str, analysis: &str) -> String {
     BEAM.replace("ORDER", &order.to_string()).replace("FORCE", force).replace("ANALYSIS", analysis)
-}
-
-fn finished(text: &str) -> Session {
-    let mut session = match Model::from_text("beam.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    };
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{report:?}");
-    session
 }
 
 #[test]

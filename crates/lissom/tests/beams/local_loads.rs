@@ -1,29 +1,10 @@
 //! Loads that depend on the motion of their own points, beside closed forms and published flutter.
 
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
-use lissom::{Model, Override, Record, SessionError};
+use lissom::{Model, SessionError};
 
-fn run(text: &str, set: &[(&str, &str)]) -> Record {
-    let set: Vec<Override> = set.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let mut session = Model::from_text("model.toml", text).session(&set).unwrap_or_else(|e| panic!("{e}"));
-    let (record, report) = session.record();
-    assert!(report.error().is_none(), "{}", report.error().unwrap());
-    let warnings: Vec<_> = session.warnings().map(ToString::to_string).collect();
-    assert!(warnings.is_empty(), "{warnings:?}");
-    record
-}
-
-fn last(record: &Record, output: &str, component: &str) -> f64 {
-    *record.column(output, component).unwrap().last().unwrap()
-}
-
-fn problems(text: &str) -> String {
-    match Model::from_text("model.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => error.to_string(),
-        Ok(_) => panic!("a wrong model is accepted"),
-    }
-}
+use crate::support::refused::refused;
+use crate::support::runs::{last, run_without_warnings as run};
 
 const FALL: &str = r#"
 lissom = 1
@@ -334,7 +315,7 @@ fn wrong_loads_are_rejected_with_a_remedy() {
             "add `force",
         ),
     ] {
-        let problem = problems(&FALL.replace(change, with));
+        let problem = refused(&FALL.replace(change, with));
         let words = problem.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(cause) && words.contains(remedy), "{cause}: {problem}");
     }

@@ -2,19 +2,10 @@
 
 use std::fmt::Write;
 
-use lissom::{Model, Record, SessionError};
+use lissom::Record;
 use lissom_motion::Vector3;
 
-fn run(text: &str) -> Record {
-    let mut session = match Model::from_text("beam.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
-        Err(error) => panic!("{error}"),
-    };
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
-    record
-}
+use crate::support::runs::run;
 
 fn vector(record: &Record, output: &str, names: [&str; 3], row: usize) -> Vector3 {
     let column = |name| record.column(output, name).unwrap_or_else(|| panic!("{output}.{name}"));
@@ -95,7 +86,7 @@ fn places_within_elements_move_with_the_body_that_the_beam_is_fixed_to() {
     for order in [1, 2, 3] {
         for is_shared in [false, true] {
             for point in ["", "[1.1, 0.0, 0.1]"] {
-                let record = run(&turning(order, is_shared, point));
+                let record = run(&turning(order, is_shared, point), &[]);
                 for (kind, names) in KINDS {
                     // The beam is not strained at the start: what it takes along then has no acceleration yet.
                     let first = if kind == "acceleration" { record.times.len() / 2 } else { 0 };
@@ -163,7 +154,7 @@ of = "bar@0.5"
         (arc, 2, 4, 1e-3),
         (arc, 3, 4, 1e-4),
     ] {
-        let record = run(&text(&format!("{beam}\norder = {order}\nelements = {elements}"), statics));
+        let record = run(&text(&format!("{beam}\norder = {order}\nelements = {elements}"), statics), &[]);
         let row = record.times.len() - 1;
         let held = vector(&record, "held", ["m1", "m2", "m3"], row);
         let found = vector(&record, "moment", ["m1", "m2", "m3"], row);
@@ -184,7 +175,7 @@ of = "bar@0.5"
         }
     }
     let thrown = "[analysis]\nkind = \"dynamics\"\nend = 0.2\nrelative_tolerance = 1e-6\noutput_step = 0.01";
-    let record = run(&text(&format!("{straight}\norder = 2\nelements = 6"), thrown));
+    let record = run(&text(&format!("{straight}\norder = 2\nelements = 6"), thrown), &[]);
     let most = (0..record.times.len())
         .map(|row| vector(&record, "held", ["m1", "m2", "m3"], row).norm())
         .fold(0.0_f64, f64::max);

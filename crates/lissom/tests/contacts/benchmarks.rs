@@ -2,7 +2,8 @@
 
 use lissom::Model;
 
-use crate::contacts::between_parts::{last, run, series};
+use crate::support::runs::run;
+use crate::support::series::{last, series};
 
 /// Keys of a contact that is almost rigid, and of one that is rigid.
 const LAWS: [&str; 2] = ["stiffness = 1e7\ndissipation = 1", "rigid = true"];

@@ -1,36 +1,12 @@
 //! Contacts between parts: restitution, friction that sticks, rolling, clearance, chains of balls, and wrong models.
 
+use lissom::Model;
 use lissom::gradient::{GradientError, Method, gradient};
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
-use lissom::{Model, Record, SessionError};
 
-pub(crate) fn run(text: &str, set: &[(&str, &str)]) -> Record {
-    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let mut session = match Model::from_text("contact.toml", text).session(&given) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    };
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
-    record
-}
-
-pub(crate) fn series<'r>(record: &'r Record, column: &str) -> &'r [f64] {
-    let (output, component) = column.split_once('.').expect("output.component");
-    record.column(output, component).unwrap_or_else(|| panic!("no column {column}"))
-}
-
-pub(crate) fn last(record: &Record, column: &str) -> f64 {
-    *series(record, column).last().expect("a record")
-}
-
-fn problems(text: &str) -> String {
-    match Model::from_text("contact.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("a bad model is accepted"),
-    }
-}
+use crate::support::refused::refused;
+use crate::support::runs::run;
+use crate::support::series::{last, series};
 
 const DROP: &str = r#"
 lissom = 1
@@ -319,7 +295,7 @@ fn wrong_contacts_are_rejected_with_a_remedy() {
     ] {
         let text = DROP.replace(old, new);
         assert_ne!(text, DROP, "{old}");
-        let found = problems(&text);
+        let found = refused(&text);
         assert!(found.contains(message), "{message}: {found}");
     }
 }

@@ -1,34 +1,8 @@
 //! Beams in contact: on planes, balls, cylinders and in bores, with each other, belts round pulleys, and wrong models.
 
-use lissom::{Model, Record, SessionError};
-
-fn run(text: &str, set: &[(&str, &str)]) -> Record {
-    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let mut session = match Model::from_text("beam-contact.toml", text).session(&given) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    };
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
-    record
-}
-
-fn series<'r>(record: &'r Record, column: &str) -> &'r [f64] {
-    let (output, component) = column.split_once('.').expect("output.component");
-    record.column(output, component).unwrap_or_else(|| panic!("no column {column}"))
-}
-
-fn last(record: &Record, column: &str) -> f64 {
-    *series(record, column).last().expect("a record")
-}
-
-fn problems(text: &str) -> String {
-    match Model::from_text("beam-contact.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("a bad model is accepted"),
-    }
-}
+use crate::support::refused::refused;
+use crate::support::runs::run;
+use crate::support::series::{last, series};
 
 const MATERIAL: &str = r#"
 lissom = 1
@@ -484,7 +458,7 @@ kind = "dynamics"
 end = 1
 "#
     );
-    assert!(problems(&text).contains("base and tip share a node"));
+    assert!(refused(&text).contains("base and tip share a node"));
 }
 
 /// What is not available is rejected with a remedy.
@@ -517,7 +491,7 @@ fn wrong_contacts_of_beams_are_rejected() {
         ),
     ] {
         assert!(good.contains(from), "{from}");
-        let found = problems(&good.replace(from, to));
+        let found = refused(&good.replace(from, to));
         let words: String = found.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(expected), "{to}: {found}");
     }

@@ -1,15 +1,11 @@
 //! Rigid contacts against formulas: impacts, rest, opening, friction, several contacts at once, and what is rejected.
 
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
-use lissom::{Model, Record, Session, SessionError};
+use lissom::{Model, Record};
 
-fn session(text: &str, set: &[(&str, &str)]) -> Session {
-    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    match Model::from_text("rigid.toml", text).session(&given) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    }
-}
+use crate::support::refused::refused;
+use crate::support::runs::session;
+use crate::support::series::{last, series};
 
 /// The record, and the events with their times.
 fn run(text: &str, set: &[(&str, &str)]) -> (Record, Vec<(String, f64)>) {
@@ -22,25 +18,8 @@ fn run(text: &str, set: &[(&str, &str)]) -> (Record, Vec<(String, f64)>) {
     (record, events)
 }
 
-fn series<'r>(record: &'r Record, column: &str) -> &'r [f64] {
-    let (output, component) = column.split_once('.').expect("output.component");
-    record.column(output, component).unwrap_or_else(|| panic!("no column {column}"))
-}
-
-fn last(record: &Record, column: &str) -> f64 {
-    *series(record, column).last().expect("a record")
-}
-
 fn of(events: &[(String, f64)], name: &str) -> Vec<f64> {
     events.iter().filter(|(own, _)| own == name).map(|(_, time)| *time).collect()
-}
-
-fn problems(text: &str) -> String {
-    match Model::from_text("rigid.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => error.to_string(),
-        Ok(_) => panic!("a wrong model is accepted"),
-    }
 }
 
 /// Why a run ends before its end.
@@ -600,19 +579,19 @@ end = 10
 #[test]
 fn what_is_not_available_is_rejected() {
     let stiff = BALL.replace("rigid = true", "rigid = true\nstiffness = 1e6");
-    assert!(problems(&stiff).contains("is rigid and has `stiffness`"), "{}", problems(&stiff));
+    assert!(refused(&stiff).contains("is rigid and has `stiffness`"), "{}", refused(&stiff));
     let weak =
         BALL.replace("rigid = true", "stiffness = 1e6").replace("restitution = 0.5", "restitution = 0");
-    assert!(problems(&weak).contains("is below 0.01"), "{}", problems(&weak));
+    assert!(refused(&weak).contains("is below 0.01"), "{}", refused(&weak));
     let statics = BALL.replace("kind = \"dynamics\"\nend = 8", "kind = \"statics\"\nstep = 1");
-    assert!(problems(&statics).contains("statics"), "{}", problems(&statics));
+    assert!(refused(&statics).contains("statics"), "{}", refused(&statics));
     let deep = BALL.replace("position = [0, 0, 0.6]", "position = [0, 0, 0.05]");
-    assert!(problems(&deep).contains("penetrate"), "{}", problems(&deep));
+    assert!(refused(&deep).contains("penetrate"), "{}", refused(&deep));
     let latched = format!(
         "{BALL}\n[bodies.door]\nmass = 1\ninertia = [1, 1, 1]\nposition = [5, 0, 5]\n[joints.hinge]\nkind = \"revolute\"\n\
          base = \"ground\"\ntip = \"door\"\naxis = [0, 0, 1]\nlatch = {{ at = 1 }}\n"
     );
-    assert!(problems(&latched).contains("latch"), "{}", problems(&latched));
+    assert!(refused(&latched).contains("latch"), "{}", refused(&latched));
     let request =
         ModeRequest { count: None, about: Some(OperatingPoint::Undeformed), shift: None, no_plots: true };
     let error = modes(&Model::from_text("rigid.toml", BALL), &[], &request).expect_err("it has no modes");

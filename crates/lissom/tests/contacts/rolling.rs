@@ -1,8 +1,7 @@
 //! Wheels that slip: sliding with the friction that the law gives, the passage to rolling, the limit of rolling, lifting.
 
-use lissom::{Model, Record, SessionError};
-
 use crate::support::refused::refused;
+use crate::support::runs::{column, run};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 const GRAVITY: f64 = 9.81;
@@ -56,22 +55,6 @@ step = 2e-3
 }
 
 const LAW: &str = "friction_coefficient = 0.5\nslip_velocity = 1e-3";
-
-fn run(text: &str, set: &[(&str, &str)]) -> Record {
-    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let mut session = match Model::from_text("wheel.toml", text).session(&given) {
-        Ok(session) => session,
-        Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
-        Err(error) => panic!("{error}"),
-    };
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
-    record
-}
-
-fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
-}
 
 /// v falls by μ g t and ω grows by 2 μ g t/r until v = ω r = 2 v₀/3 at t = v₀/(3 μ g); from then on it rolls.
 #[test]
@@ -368,9 +351,8 @@ fn laws_that_make_no_sense_are_refused() {
         ("traction = \"-slip\"", "negative friction would drive"),
         ("traction = \"slip\"\nfriction_coefficient = 0.3", "remove one of them"),
     ] {
-        let started = Model::from_text("wheel.toml", &wheel(1.0, 0.0, "", law)).session(&[]).map(|_| ());
-        let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
-        assert!(report.render(false).contains(wanted), "{}", report.render(false));
+        let found = refused(&wheel(1.0, 0.0, "", law));
+        assert!(found.contains(wanted), "{found}");
     }
     for (from, to, wanted) in [
         ("wheel_axis = [0, 1, 0]", "wheel_axis = [0, 0, 1]", "is flat"),
@@ -381,8 +363,7 @@ fn laws_that_make_no_sense_are_refused() {
     ] {
         let text = wheel(1.0, 0.0, "", LAW);
         assert!(text.contains(from), "{from}");
-        let started = Model::from_text("wheel.toml", &text.replace(from, to)).session(&[]).map(|_| ());
-        let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
-        assert!(report.render(false).contains(wanted), "{}", report.render(false));
+        let found = refused(&text.replace(from, to));
+        assert!(found.contains(wanted), "{found}");
     }
 }

@@ -1,16 +1,10 @@
 //! Contacts of solids with edges, outlines, meshes and height fields; resistance to rolling.
 
-use lissom::{Model, Record, SessionError};
+use lissom::Record;
 
-use crate::contacts::between_parts::{last, run, series};
-
-fn problems(text: &str) -> String {
-    match Model::from_text("contact.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("a bad model is accepted"),
-    }
-}
+use crate::support::refused::refused;
+use crate::support::runs::run;
+use crate::support::series::{last, series};
 
 /// A body that falls on the ground, with their shapes.
 fn falling(ground: &str, shape: &str, rest: &str) -> String {
@@ -259,7 +253,7 @@ fn wrong_shapes_are_rejected_with_a_remedy() {
         ),
         (plane, plane, "a plane against a plane is not available"),
     ] {
-        let found = problems(&falling(ground, shape, ""));
+        let found = refused(&falling(ground, shape, ""));
         assert!(found.contains(message), "{message}: {found}");
     }
 }
@@ -296,5 +290,5 @@ fn groups_are_all_their_pairs() {
     }
     assert!(last(&of_group, "c.v1") > 0.5);
     let twice = format!("{parts}[contacts.all]\nbase = \"ground\"\ntip = \"a\"\nothers = [\"a\"]\n{law}");
-    assert!(problems(&twice).contains("names `a` twice"), "{}", problems(&twice));
+    assert!(refused(&twice).contains("names `a` twice"), "{}", refused(&twice));
 }

@@ -2,23 +2,18 @@
 //! is reported where the model of one contact ends.
 
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
-use lissom::{Model, Record, SessionError};
+use lissom::{Model, Record};
 use lissom_core::linearized::ModeKind;
+
+use crate::support::refused::refused_on_one_line;
+use crate::support::runs::{overrides, session};
 
 const MODEL: &str = include_str!("../../../../verification/wheelset/model.toml");
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
-fn given(set: &[(&str, &str)]) -> Vec<(String, String)> {
-    set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect()
-}
-
 fn run(text: &str, set: &[(&str, &str)]) -> (Record, Vec<String>) {
-    let mut session = match Model::from_text("wheelset.toml", text).session(&given(set)) {
-        Ok(session) => session,
-        Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
-        Err(error) => panic!("{error}"),
-    };
+    let mut session = session(text, set);
     let (record, report) = session.record();
     assert!(report.is_complete(), "{set:?}: {:?}", report.error());
     let warnings = session.warnings().map(ToString::to_string).collect();
@@ -163,7 +158,7 @@ fn a_body_that_turns_and_goes_along_moves_as_one_in_axes_that_run_with_it() {
 /// A run that is stopped in the middle goes on to the last bit.
 #[test]
 fn a_snapshot_in_the_middle_changes_nothing() {
-    let set = given(&[("analysis.end", "0.05"), ("analysis.step", "5e-4")]);
+    let set = overrides(&[("analysis.end", "0.05"), ("analysis.step", "5e-4")]);
     let model = Model::from_text("wheelset.toml", MODEL);
     let open = || model.session(&set).map_err(|_| "valid").expect("valid");
     let mut whole = open();
@@ -214,10 +209,8 @@ fn what_the_model_does_not_know_is_reported() {
         ("ellipse = [1.3537956, 0.7115218]", "ellipse = [1.3537956, 0]", "two positive numbers"),
     ] {
         assert!(MODEL.contains(from), "{from}");
-        let started = Model::from_text("wheelset.toml", &MODEL.replace(from, to)).session(&[]).map(|_| ());
-        let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
-        let text = report.render(false).split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(text.contains(wanted), "{wanted}: {text}");
+        let found = refused_on_one_line(&MODEL.replace(from, to));
+        assert!(found.contains(wanted), "{wanted}: {found}");
     }
 }
 
@@ -244,7 +237,7 @@ fn steady(set: &[(&str, &str)]) -> ModeReport {
     let middle = middle.iter().map(|path| (path.as_str(), "0"));
     let all: Vec<_> = middle.chain(set.iter().copied()).collect();
     let request = ModeRequest { about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
-    modes(&Model::from_text("wheelset.toml", MODEL), &given(&all), &request)
+    modes(&Model::from_text("wheelset.toml", MODEL), &overrides(&all), &request)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -1,9 +1,10 @@
 //! Relations between coordinates of joints against closed forms.
 
-use crate::support::runs;
-
 use lissom::Record;
-use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
+
+use crate::support::refused::refused;
+use crate::support::runs;
+use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run};
 
 /// Sun (20 teeth), three planets' one (15) on a carrier, and a ring (50), all about z; each with an inertia of its own.
 const PLANETARY: &str = r#"
@@ -104,7 +105,7 @@ fn planetary(held: bool) -> [f64; 4] {
 #[test]
 fn a_planetary_gear_has_its_ratios_and_torques() {
     for scheme in SCHEMES {
-        let record = run(PLANETARY, &[set("analysis.scheme", scheme)]);
+        let record = run(PLANETARY, &[("analysis.scheme", scheme)]);
         let [s, c, p, r] = planetary(false).map(|by_unit| 0.01 * by_unit);
         // The planet goes round in a circle, which steps approximate.
         let allowed = if scheme.starts_with("radau-iia") { 1e-9 } else { 1e-5 } * s;
@@ -182,7 +183,7 @@ step = 0.01
 "#;
     let acceleration = -9.81 * 3.0 / (3.0 + 0.02 / 0.04);
     for scheme in SCHEMES {
-        let record = run(text, &[set("analysis.scheme", scheme)]);
+        let record = run(text, &[("analysis.scheme", scheme)]);
         let fall = last(&record, "rack", "z") - 1.0;
         assert!((fall - 0.5 * acceleration).abs() < 1e-9, "{scheme}: {fall} {}", 0.5 * acceleration);
         assert!((last(&record, "axle", "angle") - 0.4 - fall / -0.2).abs() < 1e-12, "{scheme}");
@@ -251,7 +252,7 @@ fn a_cam_is_as_the_drive_that_gives_its_motion() {
         "kind = \"equation\"\nequation = \"1000*(guide.displacement - 0.05*(1 - cos(shaft.angle)))\"",
     );
     for scheme in SCHEMES {
-        let scheme = [set("analysis.scheme", scheme)];
+        let scheme = [("analysis.scheme", scheme)];
         let records = [CAM, &driven, &equation].map(|text| run(text, &scheme));
         for component in ["displacement", "velocity"] {
             let [cam, drive, equation] =
@@ -291,13 +292,13 @@ fn a_cam_is_as_the_drive_that_gives_its_motion() {
         "profile = \"0.05*(1 - cos(x))\"",
         &format!("profile = {{ table = [{}], interpolation = \"spline\" }}", rows.join(", ")),
     );
-    let scheme = [set("analysis.scheme", "radau-iia")];
+    let scheme = [("analysis.scheme", "radau-iia")];
     let (smooth, splined) = (run(CAM, &scheme), run(&table, &scheme));
     let difference = last(&smooth, "follower", "displacement") - last(&splined, "follower", "displacement");
     assert!(difference.abs() < 1e-8, "{difference}");
     // Straight lines have corners: the follower's speed would jump.
     let linear = table.replace(", interpolation = \"spline\"", "");
-    assert!(reported(&linear).contains("kink"), "{}", reported(&linear));
+    assert!(refused(&linear).contains("kink"), "{}", refused(&linear));
 }
 
 /// Pendulums whose angles are tied by a curve, released: energy is kept by the energy-decaying scheme, chosen steps agree
@@ -344,7 +345,7 @@ step = 2e-3
 
 #[test]
 fn curved_relations_keep_energy_and_hold() {
-    let reference = run(TIED, &[set("analysis.step", "2e-4"), set("analysis.scheme", "radau-iia")]);
+    let reference = run(TIED, &[("analysis.step", "2e-4"), ("analysis.scheme", "radau-iia")]);
     let near = |record: &Record, tolerance: f64, most: f64, what: &str| {
         let (a, b) = (last(record, "one", "angle"), last(&reference, "one", "angle"));
         assert!((a - b).abs() < tolerance, "{what}: {a} {b}");
@@ -354,17 +355,17 @@ fn curved_relations_keep_energy_and_hold() {
         }
     };
     for scheme in SCHEMES {
-        near(&run(TIED, &[set("analysis.scheme", scheme)]), 2e-3, 1e-11, scheme);
+        near(&run(TIED, &[("analysis.scheme", scheme)]), 2e-3, 1e-11, scheme);
     }
     let chosen = TIED.replace("step = 2e-3", "relative_tolerance = 1e-5");
     // Between the ends of steps, relations hold to the error of the interpolation; at the ends, as Newton's iterations stop.
     near(&run(&chosen, &[]), 1e-3, 1e-6, "chosen steps");
-    near(&run(&chosen, &[set("analysis.output_every", "2")]), 1e-3, 1e-10, "ends of chosen steps");
+    near(&run(&chosen, &[("analysis.output_every", "2")]), 1e-3, 1e-10, "ends of chosen steps");
     for step in ["1e-3", "1e-2", "5e-2"] {
         let overrides = [
-            set("analysis.scheme", "energy-decaying"),
-            set("analysis.spectral_radius", "1.0"),
-            set("analysis.step", step),
+            ("analysis.scheme", "energy-decaying"),
+            ("analysis.spectral_radius", "1.0"),
+            ("analysis.step", step),
         ];
         let record = run(TIED, &overrides);
         let energy = column(&record, "energy", "total");
@@ -384,7 +385,7 @@ fn relations_go_on_from_a_snapshot_to_the_last_bit() {
 #[test]
 fn a_relation_that_moves_is_a_drive() {
     let moving = TIED.replace("+ 0.1*one.angle*two.angle", "+ 0.1*one.angle*two.angle - 0.3*t^2*(3 - 2*t/2)");
-    let record = run(&moving, &[set("analysis.scheme", "radau-iia"), set("analysis.end", "1.0")]);
+    let record = run(&moving, &[("analysis.scheme", "radau-iia"), ("analysis.end", "1.0")]);
     let (one, two) = (last(&record, "one", "angle"), last(&record, "two", "angle"));
     let violation = two - 0.8 * one.sin() - 0.2 * one * one + 0.1 * one * two - 0.6;
     assert!(violation.abs() < 1e-11, "{violation}");
@@ -402,7 +403,7 @@ fn wrong_relations_are_reported() {
         ("t - t", "at least one"),
         ("one.angle^2 + two.angle^2", "does not change with its coordinates"),
     ] {
-        let found = reported(&TIED.replace(equation, instead));
+        let found = refused(&TIED.replace(equation, instead));
         assert!(found.contains(words), "{instead}: {found}");
     }
     for (old, instead, words) in [
@@ -422,7 +423,7 @@ fn wrong_relations_are_reported() {
             "joint `guide` has no coordinate 1.5",
         ),
     ] {
-        let found = reported(&CAM.replace(old, instead));
+        let found = refused(&CAM.replace(old, instead));
         assert!(found.contains(words), "{instead}: {found}");
     }
 }

@@ -1,7 +1,10 @@
 //! Velocities, accelerations and forces of mechanisms that drives prescribe, against closed forms of their positions: they must not
 //! depend on the steps, for positions have no error there that would make steps shorter.
 
-use lissom::{Model, Override, Record, Session};
+use lissom::Record;
+
+use crate::support::runs::session;
+use crate::support::series::series;
 
 /// A crank that turns at a constant rate drives a piston through a rod without mass of its own to speak of.
 const PISTON: &str = r#"
@@ -96,17 +99,6 @@ fn closed_form(angle: f64) -> [f64; 3] {
     [velocity, acceleration, 3.0 * acceleration * velocity / RATE]
 }
 
-fn session(text: &str, settings: &[(&str, &str)]) -> Session {
-    let settings: Vec<Override> =
-        settings.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    Model::from_text("driven.toml", text).session(&settings).unwrap()
-}
-
-fn column<'a>(record: &'a Record, name: &str) -> &'a [f64] {
-    let (output, component) = name.split_once('.').unwrap();
-    record.column(output, component).unwrap()
-}
-
 fn record(text: &str, settings: &[(&str, &str)]) -> Record {
     let mut session = session(text, settings);
     let (record, report) = session.record();
@@ -116,7 +108,7 @@ fn record(text: &str, settings: &[(&str, &str)]) -> Record {
 
 /// Largest error of a column against a function of the crank's angle, over the largest value of the function.
 fn error(record: &Record, name: &str, wanted: impl Fn(f64) -> f64) -> f64 {
-    let (angles, found) = (column(record, "crank.angle"), column(record, name));
+    let (angles, found) = (series(record, "crank.angle"), series(record, name));
     let wanted: Vec<f64> = angles.iter().map(|angle| wanted(*angle)).collect();
     let largest = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let errors = found.iter().zip(&wanted).map(|(found, wanted)| (found - wanted).abs());
@@ -157,7 +149,7 @@ fn a_relation_that_names_the_time_drives() {
             "[outputs.swing]\nkind = \"relative_acceleration\"\nof = \"main\"\n[outputs.force]",
         );
     let record = record(&text, &[]);
-    for (time, found) in record.times.iter().zip(column(&record, "swing.a")) {
+    for (time, found) in record.times.iter().zip(series(&record, "swing.a")) {
         let wanted = 50.0 * (5.0 * time).cos();
         assert!((found - wanted).abs() < 50.0 * 1e-6, "{time}: {found} {wanted}");
     }
@@ -172,6 +164,6 @@ fn a_session_reports_what_a_run_records() {
     session.step_to(0.35).unwrap();
     for name in ["velocity.v1", "acceleration.a1", "drive.moment", "force.value"] {
         let found = session.value(name).unwrap();
-        assert_eq!(found.to_bits(), column(&record, name)[70].to_bits(), "{name}");
+        assert_eq!(found.to_bits(), series(&record, name)[70].to_bits(), "{name}");
     }
 }

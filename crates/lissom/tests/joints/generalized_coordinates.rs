@@ -3,8 +3,11 @@
 use std::f64::consts::TAU;
 
 use lissom::modes::{ModeRequest, modes};
-use lissom::{Model, Record, SessionError};
+use lissom::{Model, Record};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix};
+
+use crate::support::refused;
+use crate::support::runs::{column, run};
 
 const MASS: [[f64; 3]; 3] = [[2.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.5]];
 /// With gyroscopic and circulatory parts.
@@ -48,19 +51,6 @@ end = 3
 step = 0.01
 "#
     )
-}
-
-fn run(text: &str, set: &[(&str, &str)]) -> Record {
-    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let mut session =
-        Model::from_text("model.toml", text).session(&given).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{set:?}");
-    record
-}
-
-fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
 }
 
 fn matrix(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
@@ -217,11 +207,7 @@ fn what_makes_no_sense_is_refused() {
     let refused = |from: &str, to: &str, wanted: &str| {
         let text = oscillator(&format!("{DAMPING:?}"));
         assert!(text.contains(from), "{from}");
-        let started = Model::from_text("model.toml", &text.replace(from, to)).session(&[]).map(|_| ());
-        let message = match started.expect_err(wanted) {
-            SessionError::Model(report) => report.render(false),
-            other => other.to_string(),
-        };
+        let message = refused::refused(&text.replace(from, to));
         assert!(message.contains(wanted), "{message}");
     };
     let mass = format!("mass = {MASS:?}");
@@ -260,10 +246,6 @@ fn an_entry_acts_on_a_hundred_coordinates_at_most() {
         )
     };
     assert!(Model::from_text("model.toml", &model(100)).session(&[]).is_ok());
-    let started = Model::from_text("model.toml", &model(101)).session(&[]).map(|_| ());
-    let message = match started {
-        Err(SessionError::Model(report)) => report.render(false),
-        _ => panic!("accepted"),
-    };
+    let message = refused::refused(&model(101));
     assert!(message.contains("names 101 coordinates; an entry has at most 100"), "{message}");
 }

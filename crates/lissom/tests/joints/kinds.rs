@@ -1,9 +1,10 @@
 //! Kinds of joints against closed forms, and all of them with every scheme, with chosen steps and restarted.
 
-use crate::support::runs;
-
 use lissom::{Model, Record};
-use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
+
+use crate::support::refused::refused;
+use crate::support::runs;
+use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, session};
 
 pub(crate) const EVERY_KIND: &str = include_str!("../models/every_kind.toml");
 const OUTPUTS: &str = "
@@ -24,10 +25,8 @@ of = \"table\"
 #[test]
 fn all_kinds_run_with_every_scheme_and_with_chosen_steps() {
     let text = format!("{EVERY_KIND}{OUTPUTS}");
-    let reference = run(
-        &text,
-        &[set("analysis.end", "0.2"), set("analysis.step", "2e-4"), set("analysis.scheme", "radau-iia")],
-    );
+    let reference =
+        run(&text, &[("analysis.end", "0.2"), ("analysis.step", "2e-4"), ("analysis.scheme", "radau-iia")]);
     let ends = |record: &Record| {
         ["nut", "half_shaft", "carriage"]
             .iter()
@@ -40,14 +39,13 @@ fn all_kinds_run_with_every_scheme_and_with_chosen_steps() {
         }
     };
     for scheme in SCHEMES {
-        let overrides =
-            [set("analysis.end", "0.2"), set("analysis.step", "1e-3"), set("analysis.scheme", scheme)];
+        let overrides = [("analysis.end", "0.2"), ("analysis.step", "1e-3"), ("analysis.scheme", scheme)];
         near(&run(&text, &overrides), 2e-5, scheme);
     }
     let chosen = EVERY_KIND
         .replace("step = 2e-3", "relative_tolerance = 1e-5")
         .replace("scheme = \"energy-decaying\"\n", "");
-    near(&run(&format!("{chosen}{OUTPUTS}"), &[set("analysis.end", "0.2")]), 1e-4, "chosen steps");
+    near(&run(&format!("{chosen}{OUTPUTS}"), &[("analysis.end", "0.2")]), 1e-4, "chosen steps");
 }
 
 #[test]
@@ -147,10 +145,10 @@ step = 0.01
 "#;
     let record = run(text, &[]);
     let (angles, turned) = (column(&record, "in", "angle"), column(&record, "out", "angle"));
-    assert!(angles.iter().zip(&turned).all(|(a, b)| (a - b).abs() < 1e-11));
+    assert!(angles.iter().zip(turned).all(|(a, b)| (a - b).abs() < 1e-11));
     assert!(turned.last().copied().unwrap_or(0.0) > 5.0);
     let square = text.replace("tip_axis = [\"-cos(0.6)\", \"-sin(0.6)\", 0]", "tip_axis = [0, 0, 1]");
-    assert!(reported(&square).contains("perpendicular"));
+    assert!(refused(&square).contains("perpendicular"));
 }
 
 fn sliding(joint: &str, outputs: &str) -> Record {
@@ -327,7 +325,7 @@ fn wrong_locks_are_reported() {
             "lissom = 1\n[bodies.a]\nmass = 1\ninertia = [1, 1, 1]\n[joints.j]\nkind = \"generic\"\n\
              base = \"ground\"\ntip = \"a\"\n{lines}\n[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n"
         );
-        reported(&text)
+        refused(&text)
     };
     for (lines, words) in [
         ("locked = []", "is empty"),
@@ -443,8 +441,7 @@ fn a_turned_body_falls_along_a_plane_that_bears_nothing() {
     for locked in ["[\"x\"]", "[\"x\", \"rx\", \"ry\", \"rz\"]", "[\"x\", \"y\"]"] {
         for scheme in SCHEMES {
             let text = model(locked);
-            let mut session =
-                Model::from_text("falls.toml", &text).session(&[set("analysis.scheme", scheme)]).unwrap();
+            let mut session = session(&text, &[("analysis.scheme", scheme)]);
             let (record, report) = session.record();
             assert!(report.is_complete(), "{locked} {scheme}: {:?}", report.error());
             let fallen = last(&record, "a", "z");
@@ -595,7 +592,7 @@ fn prescribed_motions_leave_free_what_is_free() {
             assert!((a - b).abs() < 2e-6, "{free} {component}: {a} {b}");
         }
     }
-    assert!(reported(&CARRIED.replace("FREE", "free = [\"x\"]")).contains("is prescribed and in `free`"));
+    assert!(refused(&CARRIED.replace("FREE", "free = [\"x\"]")).contains("is prescribed and in `free`"));
 }
 
 #[test]
@@ -605,7 +602,7 @@ fn drives_of_joints_without_a_coordinate_are_refused() {
         .replace("ALONG", drive)
         .replace("telescopic_rod", "distance")
         .replace("displacement = 1.5\n", "");
-    let words = reported(&distance).split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = refused(&distance).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         words.contains("joint `rod` has no relative displacement") && words.contains("telescopic_rod joint"),
         "{words}"

@@ -1,6 +1,9 @@
 //! Latches and releases against formulas: what is taken at the instant of latching, and what goes on afterwards.
 
-use lissom::{Model, Record, SessionError};
+use lissom::Model;
+
+use crate::support::refused::{refused, refused_on_one_line};
+use crate::support::runs::{column, run, session};
 
 /// Two discs on one axis, the second hinged to the first; events latch and release the hinge between them.
 const DISCS: &str = r#"
@@ -72,10 +75,6 @@ end = 2
 step = 1e-2
 "#;
 
-fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
-}
-
 /// Latched at 0.5 s with ω = J₂/(J₁ + J₂), driven from 0.6 s on with 4/(J₁ + J₂), released at 1.2 s.
 #[test]
 fn discs_go_on_together_with_their_momentum_and_part_again() {
@@ -83,9 +82,7 @@ fn discs_go_on_together_with_their_momentum_and_part_again() {
     let controlled = ("analysis.relative_tolerance", "1e-6");
     let runs = schemes.map(|scheme| vec![("analysis.scheme", scheme)]);
     for set in runs.into_iter().chain([vec![controlled], vec![controlled, ("analysis.scheme", "hht")]]) {
-        let given: Vec<_> =
-            set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-        let mut session = Model::from_text("discs.toml", DISCS).session(&given).unwrap();
+        let mut session = session(DISCS, &set);
         let (record, report) = session.record();
         assert!(report.is_complete(), "{set:?}");
         let (axle, hinge) = (column(&record, "axle", "rate"), column(&record, "hinge", "rate"));
@@ -179,8 +176,8 @@ step = 0.05
 /// The short form does what the long form does; what is released lets go where its expression rises.
 #[test]
 fn the_short_form_is_the_long_form() {
-    let set = [("analysis.relative_tolerance".to_owned(), "1e-7".to_owned())];
-    let (long, _) = Model::from_text("discs.toml", DISCS).session(&set).unwrap().record();
+    let set = [("analysis.relative_tolerance", "1e-7")];
+    let long = run(DISCS, &set);
     let cut = |text: &str, from: &str, to: &str| {
         let (begin, end) = (text.find(from).unwrap(), text.find(to).unwrap());
         format!("{}{}", &text[..begin], &text[end..])
@@ -192,7 +189,7 @@ fn the_short_form_is_the_long_form() {
     );
     let hinge = "tip = \"second\"\naxis = [0, 0, 1]\n";
     let short = text.replace(hinge, &format!("{hinge}latch = {{ at = 0.5 }}\nrelease = \"t - 1.2\"\n"));
-    let mut session = Model::from_text("short.toml", &short).session(&set).unwrap();
+    let mut session = session(&short, &set);
     let (record, report) = session.record();
     assert!(report.is_complete());
     for (output, component) in [("axle", "rate"), ("hinge", "angle"), ("hinge", "rate"), ("momentum", "l3")] {
@@ -215,11 +212,8 @@ fn the_short_form_is_the_long_form() {
     let wrong = wrong
         .replace(hinge, &hinge.replace("axis = [0, 0, 1]\n", ""))
         .replace("axis = [0, 0, 1]\nlatch", "latch");
-    let Err(SessionError::Model(report)) = Model::from_text("wrong.toml", &wrong).session(&[]).map(|_| ())
-    else {
-        panic!("a spherical joint has no coordinate")
-    };
-    assert!(report.render(false).contains("no relative coordinate"), "{}", report.render(false));
+    let found = refused(&wrong);
+    assert!(found.contains("no relative coordinate"), "{found}");
 }
 
 /// A latch that is engaged from outside before the first step holds from the start on.
@@ -231,8 +225,7 @@ fn a_latch_engaged_before_the_first_step_holds() {
     );
     assert!(!text.contains("snap"));
     for scheme in ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"] {
-        let set = [("analysis.scheme".to_owned(), scheme.to_owned())];
-        let mut session = Model::from_text("discs.toml", &text).session(&set).unwrap();
+        let mut session = session(&text, &[("analysis.scheme", scheme)]);
         session.set_input("latched", 1.0).unwrap();
         session.step_to(0.5).unwrap();
         // J₂ ω/(J₁ + J₂), at once.
@@ -324,11 +317,8 @@ fn latches_go_on_from_a_snapshot_and_are_refused_where_they_cannot_be() {
         ("engaged = \"latched\"\n", "", "lacks `engaged`"),
         ("\"torsional_latch\"", "\"axial_latch\"", "has no relative displacement"),
     ] {
-        let error = Model::from_text("discs.toml", &DISCS.replacen(from, to, 1)).session(&[]).map(|_| ());
-        let Err(SessionError::Model(report)) = error else { panic!("{wanted}") };
-        let shown = report.render(false);
-        let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
-        assert!(joined.contains(wanted), "{wanted}: {shown}");
+        let found = refused_on_one_line(&DISCS.replacen(from, to, 1));
+        assert!(found.contains(wanted), "{wanted}: {found}");
     }
     // First-order equations know no constraints between velocities.
     let request = lissom::linearize::LinearizeRequest {

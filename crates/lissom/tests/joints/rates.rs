@@ -8,7 +8,7 @@ use lissom::{Model, Record};
 use lissom_motion::{Rotation, Vector3};
 
 use super::kinds::EVERY_KIND;
-use crate::support::runs::{run, set};
+use crate::support::runs::run;
 
 /// Sliders of all orientations on an arc that swings and twists under its weight.
 const SLIDERS: &str = r#"
@@ -132,7 +132,7 @@ fn check(text: &str, parts: &[&str], observers: [&str; 2], springs: &[&str], tol
     }
     let record = run(
         &text,
-        &[set("analysis.scheme", "radau-iia"), set("analysis.step", "2.5e-4"), set("analysis.end", "0.07")],
+        &[("analysis.scheme", "radau-iia"), ("analysis.step", "2.5e-4"), ("analysis.end", "0.07")],
     );
     for part in parts {
         for (view, _) in &views[..2] {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use lissom::Model;
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
 
-use crate::support::runs::{column, last, run, set};
+use crate::support::runs::{column, last, run};
 
 macro_rules! model {
     ($name:literal) => {
@@ -25,7 +25,7 @@ fn the_piston_moves_as_its_mechanism_says() {
     let record = run(model!("slider-crank-3500rpm"), &[]);
     let (crank, rod, speed) = (0.045, 0.15, 3500.0 * 2.0 * PI / 60.0);
     let place = column(&record, "piston", "x");
-    for (time, x) in record.times.iter().zip(&place) {
+    for (time, x) in record.times.iter().zip(place) {
         let (sine, cosine) = (speed * time).sin_cos();
         let wanted = crank * cosine + (rod * rod - (crank * sine).powi(2)).sqrt();
         close(*x, wanted, 1e-10, "piston");
@@ -42,8 +42,7 @@ fn the_piston_moves_as_its_mechanism_says() {
 #[test]
 fn booms_latch_and_the_angular_momentum_stays_zero() {
     // Records are interpolated within the steps, and the momentum with them.
-    let record =
-        run(model!("satellite-latching-booms"), &[("analysis.relative_tolerance".into(), "1e-9".into())]);
+    let record = run(model!("satellite-latching-booms"), &[("analysis.relative_tolerance", "1e-9")]);
     let wanted = (0.4 * 0.75 * PI + 4e3 * 0.5 * PI) / 4000.4;
     for hinge in ["left_hinge", "right_hinge"] {
         close(last(&record, hinge, "angle"), wanted, 1e-7, hinge);
@@ -66,9 +65,9 @@ fn a_load_in_a_slack_cable_jerks_as_its_energy_says() {
     // Records do not meet the peak itself.
     close(most, wanted, 1e-3 * wanted, "jerk");
     assert!(force.iter().all(|force| *force >= 0.0), "a cable does not push");
-    for ((time, z), force) in record.times.iter().zip(column(&record, "load", "z")).zip(&force) {
+    for ((time, z), force) in record.times.iter().zip(column(&record, "load", "z")).zip(force) {
         if *time < (2.0 * drop / GRAVITY).sqrt() {
-            close(z, -7.4 - 0.5 * GRAVITY * time * time, 1e-8, "free fall");
+            close(*z, -7.4 - 0.5 * GRAVITY * time * time, 1e-8, "free fall");
             assert!(*force == 0.0, "slack at {time}");
         }
     }
@@ -143,7 +142,7 @@ fn a_blade_swings_in_lag_as_the_linear_formula_says() {
     for (time, lag) in record.times.iter().zip(column(&record, "lag", "angle")) {
         let (sine, cosine) = (own * time).sin_cos();
         let wanted = start * (-decay * time).exp() * (cosine + decay / own * sine);
-        close(lag, wanted, 3e-7, "lag");
+        close(*lag, wanted, 3e-7, "lag");
     }
 }
 
@@ -296,14 +295,14 @@ fn a_mast_of_200_members_grows_as_its_scissors_open() {
 fn a_belt_carries_the_fan_along() {
     let record = run(model!("belt-drive"), &[]);
     let [motor, fan] = ["motor", "fan"].map(|name| column(&record, name, "angle"));
-    for (motor, fan) in motor.iter().zip(&fan) {
+    for (motor, fan) in motor.iter().zip(fan) {
         close(*fan, *motor, 0.2, "angle of the fan");
     }
     assert!(last(&record, "fan", "angle") > 2.7);
     let contacts = ["motor_left", "motor_lower", "motor_upper", "fan_right", "fan_lower", "fan_upper"];
     for name in contacts {
         let [normal, friction] = ["normal", "friction"].map(|component| column(&record, name, component));
-        for (normal, friction) in normal.iter().zip(&friction) {
+        for (normal, friction) in normal.iter().zip(friction) {
             assert!(*normal >= -1e-9 && *friction <= 0.625 * normal + 1e-9, "{name}");
         }
     }
@@ -330,7 +329,7 @@ fn a_wing_flutters_with_a_limited_amplitude() {
     let record = run(model!("wing-flutter"), &[]);
     let twist = column(&record, "twist", "r3");
     let largest = |from: f64, to: f64| {
-        let rows = record.times.iter().zip(&twist).filter(|(time, _)| (from..to).contains(*time));
+        let rows = record.times.iter().zip(twist).filter(|(time, _)| (from..to).contains(*time));
         rows.fold(0.0_f64, |most, (_, twist)| most.max(twist.abs()))
     };
     close(largest(1.0, 2.0), largest(2.0, 3.0), 0.02, "amplitude of the limit cycle");
@@ -345,7 +344,7 @@ fn an_excavator_holds_its_load() {
     let force = last(&record, "force", "force");
     // Virtual work: the same pose with a little more stroke.
     let potential = |stroke: &str| {
-        let stroke = [set("joints.lift_stroke.displacement", stroke)];
+        let stroke = [("joints.lift_stroke.displacement", stroke)];
         last(&run(model!("excavator-arm"), &stroke), "energy", "potential")
     };
     let step = 1e-3;
@@ -384,7 +383,7 @@ fn a_rotor_on_oil_films_whirls_at_half_of_its_speed() {
     }
     let rate = turned / (record.times[y.len() - 1] - record.times[from]);
     assert!((0.45..0.51).contains(&(rate / 900.0)) && (0.5e-4..1e-4).contains(&largest), "{rate} {largest}");
-    let slow = run(model!("oil-whirl"), &[set("parameters.speed", "400")]);
+    let slow = run(model!("oil-whirl"), &[("parameters.speed", "400")]);
     let [y, z] = ["u2", "u3"].map(|component| column(&slow, "left", component));
     let rows = y.len() - 50..y.len() - 1;
     let moved = rows.map(|k| (y[k] - y[k + 1]).hypot(z[k] - z[k + 1])).fold(0.0, f64::max);
@@ -396,10 +395,10 @@ fn a_rotor_on_oil_films_whirls_at_half_of_its_speed() {
 #[test]
 fn a_lathe_chatters_beyond_its_limit() {
     for (width, grows) in [("1.21e-3", false), ("1.26e-3", true)] {
-        let record = run(model!("turning-chatter"), &[set("parameters.width", width)]);
+        let record = run(model!("turning-chatter"), &[("parameters.width", width)]);
         let displacement = column(&record, "tool", "displacement");
         let range = |from: f64, to: f64| {
-            let rows = record.times.iter().zip(&displacement).filter(|(time, _)| (from..to).contains(*time));
+            let rows = record.times.iter().zip(displacement).filter(|(time, _)| (from..to).contains(*time));
             let [least, most] =
                 rows.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, own)| [a.min(*own), b.max(*own)]);
             most - least

@@ -6,10 +6,11 @@
 
 use std::fmt::Write;
 
-use crate::support::runs::{SCHEMES, column, last, run, set};
 use lissom::import::{Options, Pose, Root, Unsupported, from_urdf, model_text};
 use lissom_motion::Vector6;
 use serde_json::Value;
+
+use crate::support::runs::{SCHEMES, column, last, run};
 
 const REFERENCE: &str = include_str!("robots/pinocchio.json");
 const ROBOTS: [&str; 5] = ["double_pendulum", "ur5", "panda", "z1", "solo12"];
@@ -97,7 +98,7 @@ fn accelerations_are_those_of_pinocchio() {
                  [outputs.a_{joint}]\nkind = \"relative_acceleration\"\nof = \"{joint}\"\n"
             );
         }
-        let record = run(&model, &[set("analysis.end", "1e-3"), set("analysis.step", "1e-4")]);
+        let record = run(&model, &[("analysis.end", "1e-3"), ("analysis.step", "1e-4")]);
         let kinetic = column(&record, "energy", "kinetic")[0];
         assert!(
             (kinetic - known.kinetic_energy).abs() < 1e-10 * known.kinetic_energy,
@@ -131,7 +132,7 @@ fn accelerations_of_two_links_are_those_of_lagrange() {
              [outputs.a_{joint}]\nkind = \"relative_acceleration\"\nof = \"{joint}\"\n"
         );
     }
-    let record = run(&model, &[set("analysis.end", "1e-3"), set("analysis.step", "1e-4")]);
+    let record = run(&model, &[("analysis.end", "1e-3"), ("analysis.step", "1e-4")]);
     let (upper, lower) = ((2.5, 0.35, 0.12), (1.2, 0.2, 0.03));
     let own = lower.2 + lower.0 * lower.1 * lower.1;
     let coupled = lower.0 * 0.8 * lower.1;
@@ -162,7 +163,7 @@ fn accelerations_of_two_links_are_those_of_lagrange() {
 fn error_of_fall(name: &str, text: &str, scheme: &str, step: &str) -> f64 {
     let (robot, known) = (from_urdf(text).expect("a robot"), known(name));
     let model = model_text(&robot, &pose(&known, false), BARE).expect("a model");
-    let record = run(&model, &[set("analysis.scheme", scheme), set("analysis.step", step)]);
+    let record = run(&model, &[("analysis.scheme", scheme), ("analysis.step", step)]);
     let fall = known.fall.expect("a fall");
     let errors = known.joints.iter().zip(&fall).map(|(joint, wanted)| {
         let freedom = robot.joints.iter().find(|own| own.name == *joint).expect("there").freedom;
@@ -230,7 +231,7 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
         assert!(text.contains(line), "{line} is not in\n{text}");
     }
     assert!(!text.contains("[bodies.pad]"), "what is fixed is part of what it is fixed to");
-    let record = run(&text, &[set("analysis.end", "0.05")]);
+    let record = run(&text, &[("analysis.end", "0.05")]);
     let [a, b] = [last(&record, "a", "angle"), last(&record, "b", "displacement")];
     assert!((b - 0.02 + 0.1 * a).abs() < 1e-9 && a.abs() > 1e-3, "{a} {b}");
 }

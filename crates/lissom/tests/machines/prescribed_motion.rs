@@ -1,7 +1,9 @@
 //! Motions prescribed in space: where the body is, and what it takes.
 
-use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, reported, run, set};
 use lissom_motion::{Rotation, Vector3};
+
+use crate::support::refused::refused;
+use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, run};
 
 /// A body that is shaken and turned about its centre, and a pendulum on it that is not in the way.
 const PLATFORM: &str = r#"
@@ -52,7 +54,7 @@ fn rz(time: f64) -> f64 {
 #[test]
 fn a_platform_follows_its_prescribed_motion_and_its_reaction_carries_it() {
     for scheme in SCHEMES {
-        let record = run(PLATFORM, &[set("analysis.scheme", scheme)]);
+        let record = run(PLATFORM, &[("analysis.scheme", scheme)]);
         let end = record.times.len() - 1;
         let [x, y, z] = ["x", "y", "z"].map(|name| column(&record, "place", name));
         for (k, &time) in record.times.iter().enumerate() {
@@ -80,7 +82,7 @@ fn a_platform_follows_its_prescribed_motion_and_its_reaction_carries_it() {
 fn steps_of_chosen_size_and_a_restart_in_the_middle() {
     let chosen = PLATFORM.replace("step = 2e-3", "relative_tolerance = 1e-5");
     for scheme in SCHEMES {
-        let record = run(&chosen, &[set("analysis.scheme", scheme)]);
+        let record = run(&chosen, &[("analysis.scheme", scheme)]);
         let end = record.times.len() - 1;
         let found = column(&record, "place", "x")[end];
         assert!((found - 0.5 - 0.1 * 3.0_f64.sin().powi(2)).abs() < 1e-9, "{scheme}");
@@ -125,7 +127,7 @@ end = 1.0
 step = 5e-4
 "#;
     for scheme in SCHEMES {
-        let record = run(model, &[set("analysis.scheme", scheme)]);
+        let record = run(model, &[("analysis.scheme", scheme)]);
         let x = column(&record, "mass", "x");
         let (own, drive) = (12.0_f64, 8.0_f64);
         let ratio = drive / own;
@@ -138,13 +140,13 @@ step = 5e-4
 
 #[test]
 fn motions_that_begin_elsewhere_or_name_nothing_are_refused() {
-    let said = reported(&PLATFORM.replace("x = \"0.1*sin(3*t)^2\"", "x = \"0.1*cos(3*t)\""));
+    let said = refused(&PLATFORM.replace("x = \"0.1*sin(3*t)^2\"", "x = \"0.1*cos(3*t)\""));
     assert!(said.contains("starts at 0.1 m"), "{said}");
     let nothing = PLATFORM
         .lines()
         .filter(|line| !["x =", "z =", "rx =", "ry =", "rz ="].iter().any(|key| line.starts_with(key)))
         .collect::<Vec<_>>()
         .join("\n");
-    let said = reported(&nothing);
+    let said = refused(&nothing);
     assert!(said.contains("at least one of x, y, z, rx, ry, rz"), "{said}");
 }

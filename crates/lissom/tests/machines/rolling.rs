@@ -1,6 +1,7 @@
 //! Wheels, discs and balls that roll, against closed forms.
 
-use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
+use crate::support::refused::refused;
+use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run};
 
 /// Lagrange's steady precession of a thin disc: its axis leans by α from the vertical and turns about it at Ω, and it spins
 /// by n about its axis, with 6 r Ω n sin α - r Ω² sin α cos α + 4 g cos α = 0. Its centre runs around a circle of radius
@@ -84,7 +85,7 @@ end = 2.0
     }
 
     fn error(&self, model: &str, scheme: &str, step: &str) -> f64 {
-        let overrides = [set("analysis.scheme", scheme), set("analysis.step", step)];
+        let overrides = [("analysis.scheme", scheme), ("analysis.step", step)];
         let record = run(model, &overrides);
         let wanted = self.place(2.0);
         let found = ["x", "y", "z"].map(|axis| last(&record, "place", axis));
@@ -135,7 +136,7 @@ fn a_rolling_disc_goes_on_from_a_snapshot_to_the_last_bit() {
 fn the_reaction_holds_the_disc_on_its_circle() {
     let motion = Precession::new(0.2, 1.1, 3.0);
     for scheme in SCHEMES {
-        let record = run(&motion.model("step = 1e-3"), &[set("analysis.scheme", scheme)]);
+        let record = run(&motion.model("step = 1e-3"), &[("analysis.scheme", scheme)]);
         let force = 1.7 * motion.radius * motion.spin.abs() * motion.rate.abs();
         let ends = [0, record.times.len() - 1];
         let [fx, fy, fz] = ["f1", "f2", "f3"].map(|name| column(&record, "floor", name));
@@ -195,7 +196,7 @@ end = 4.0
 step = 2e-3
 ";
     for scheme in SCHEMES {
-        let record = run(model, &[set("analysis.scheme", scheme)]);
+        let record = run(model, &[("analysis.scheme", scheme)]);
         // What the ball starts with follows from its inertia: the velocity turns at 2/7 of 2 rad/s from there on.
         let [x, y, vx, vy] = [("ball", "x"), ("ball", "y"), ("velocity", "v1"), ("velocity", "v2")]
             .map(|(output, component)| column(&record, output, component));
@@ -215,7 +216,7 @@ step = 2e-3
 #[test]
 fn a_wheel_that_does_not_touch_is_refused() {
     let model = Precession::new(0.2, 1.1, 3.0).model("step = 1e-3");
-    let said = reported(&model.replace("radius = 0.2", "radius = 0.21"));
+    let said = refused(&model.replace("radius = 0.2", "radius = 0.21"));
     assert!(said.contains("from the plane"), "{said}");
     let statics =
         model.replace("kind = \"dynamics\"", "kind = \"statics\"").replace("step = 1e-3", "steps = 4");
@@ -231,7 +232,7 @@ fn a_wheel_that_lies_flat_is_refused() {
     let model = Precession::new(0.2, 1.1, 3.0).model("step = 1e-3");
     let axis = model.lines().find(|line| line.starts_with("wheel_axis")).expect("a wheel");
     let flat = model.replace(axis, "wheel_axis = [0, 0, 1]");
-    let said = reported(&flat.replace("radius = 0.2", ""));
+    let said = refused(&flat.replace("radius = 0.2", ""));
     assert!(said.contains("is flat"), "{said}");
     let leaning = format!("wheel_axis = [{}, 0, 1]", 2e-3);
     let session = |model: &str| lissom::Model::from_text("wheel.toml", model).session(&[]).map(|_| ());
@@ -330,7 +331,7 @@ step = 2e-3
     let wanted = 0.5 * 2.0 * 3.0 / (3.0 + 0.05 / 0.0625);
     for creep in ["", "creep = 1e-6"] {
         for scheme in SCHEMES {
-            let record = run(&model(creep), &[set("analysis.scheme", scheme)]);
+            let record = run(&model(creep), &[("analysis.scheme", scheme)]);
             let found = last(&record, "axle", "x");
             assert!((found - wanted).abs() < 1e-4, "{scheme} {creep}: {found} {wanted}");
             assert!((last(&record, "axle", "z") - 0.25).abs() < 1e-9, "{scheme}");

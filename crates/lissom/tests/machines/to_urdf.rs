@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::runs::{run, set};
 use lissom::Model;
 use lissom::import::{Options, Pose, Robot, Root, from_model, from_urdf, model_text, to_urdf};
+
+use crate::support::runs::run;
 
 /// An arm with axes of its own, an offset centre of mass, a tool that is clamped on, a slide, a follower, friction and damping.
 const ARM: &str = r#"
@@ -117,10 +118,8 @@ fn what_comes_back_moves_as_the_model_does() {
     let text = text
         + "\n[outputs.shoulder_acceleration]\nkind = \"relative_acceleration\"\nof = \"shoulder\"\n\
            [outputs.rail_acceleration]\nkind = \"relative_acceleration\"\nof = \"rail\"\n";
-    let there = run(
-        &text,
-        &[set("analysis.end", "0.3"), set("analysis.step", "1e-3"), set("analysis.scheme", "radau-iia")],
-    );
+    let there =
+        run(&text, &[("analysis.end", "0.3"), ("analysis.step", "1e-3"), ("analysis.scheme", "radau-iia")]);
     let here = run(ARM, &[]);
     for (output, component) in [
         ("shoulder_acceleration", "a"),

@@ -5,6 +5,8 @@ use lissom_core::simulation::Simulation;
 use lissom_model::Document;
 use lissom_model::lower::registry::registry;
 
+use crate::support::runs;
+
 const MODEL: &str = include_str!("../../../../examples/energy.toml");
 
 /// Every joint, spring and order of beam in one mechanism.
@@ -15,8 +17,7 @@ fn start(overrides: &[(&str, &str)]) -> (Simulation, usize) {
 }
 
 fn start_of(model: &str, overrides: &[(&str, &str)]) -> (Simulation, usize) {
-    let overrides: Vec<(String, String)> =
-        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+    let overrides = runs::overrides(overrides);
     let document = Document::parse_with(model, "energy.toml", &registry(), &overrides)
         .unwrap_or_else(|report| panic!("{}", report.render(false)));
     let lowered = lower(&document).unwrap_or_else(|report| panic!("{}", report.render(false)));

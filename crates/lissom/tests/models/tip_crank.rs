@@ -5,6 +5,8 @@ use lissom_core::simulation::Simulation;
 use lissom_model::Document;
 use lissom_model::lower::registry::registry;
 
+use crate::support::runs;
+
 const TIP_CRANK: &str = include_str!("../../../../examples/tip-crank.toml");
 
 const MEASURED: &str = include_str!("../../../../docs/measured.md");
@@ -21,8 +23,7 @@ struct Run {
 }
 
 fn run(text: &str, overrides: &[(&str, &str)]) -> Run {
-    let overrides: Vec<(String, String)> =
-        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+    let overrides = runs::overrides(overrides);
     let document = Document::parse_with(text, "tip-crank.toml", &registry(), &overrides)
         .unwrap_or_else(|report| panic!("{}", report.render(false)));
     let lowered = lower(&document).unwrap_or_else(|report| panic!("{}", report.render(false)));

@@ -1,19 +1,10 @@
 //! Bearings of rotors beside closed forms: onset of whirl, squeeze-film damping; bushings that are the same from both sides.
 
 use lissom::campbell::{CampbellRequest, campbell};
-use lissom::{Model, Override, Record};
+use lissom::{Model, Record};
 
 use crate::support::refused::refused;
-
-fn run(text: &str, set: &[(&str, String)]) -> Record {
-    let set: Vec<Override> = set.iter().map(|(path, value)| ((*path).to_owned(), value.clone())).collect();
-    let mut session = Model::from_text("model.toml", text).session(&set).unwrap_or_else(|e| panic!("{e}"));
-    let (record, report) = session.record();
-    assert!(report.error().is_none(), "{}", report.error().unwrap());
-    let warnings: Vec<_> = session.warnings().map(ToString::to_string).collect();
-    assert!(warnings.is_empty(), "{warnings:?}");
-    record
-}
+use crate::support::runs::run_without_warnings as run;
 
 /// Largest displacements between a fifth and two fifths of the time, and in the last fifth.
 fn amplitudes(record: &Record) -> [f64; 2] {
@@ -70,9 +61,9 @@ fn a_bearing_with_cross_coupling_that_grows_with_the_speed_whirls_beyond_its_ons
     for (factor, grows) in [(0.95, false), (1.05, true)] {
         let speed = format!("{:?}", factor * onset);
         let set = [
-            ("parameters.omega", speed),
-            ("bodies.rotor.velocity", "[0, 0.01, 0]".to_owned()),
-            ("analysis.end", "4".to_owned()),
+            ("parameters.omega", speed.as_str()),
+            ("bodies.rotor.velocity", "[0, 0.01, 0]"),
+            ("analysis.end", "4"),
         ];
         let [first, last] = amplitudes(&run(&text, &set));
         // Real part (q/ω - c)/(2 m) = ±0.05·100/40.
@@ -142,12 +133,13 @@ fn a_rotor_on_a_fluid_film_whirls_beyond_its_critical_mass() {
     );
     let text = ROTOR.replace("[analysis]", &format!("{bearing}[analysis]"));
     for (relative, grows) in [(0.9, false), (1.1, true)] {
+        let [omega, mass, weight] = [speed, relative * critical, weight].map(|value| format!("{value:?}"));
         let set = [
-            ("parameters.omega", format!("{speed:?}")),
-            ("parameters.mass", format!("{:?}", relative * critical)),
-            ("parameters.weight", format!("{weight:?}")),
-            ("bodies.rotor.velocity", "[0, 1e-5, 0]".to_owned()),
-            ("analysis.end", "3".to_owned()),
+            ("parameters.omega", omega.as_str()),
+            ("parameters.mass", &mass),
+            ("parameters.weight", &weight),
+            ("bodies.rotor.velocity", "[0, 1e-5, 0]"),
+            ("analysis.end", "3"),
         ];
         let [first, last] = amplitudes(&run(&text, &set));
         assert!(first < 5e-6, "{first}");
@@ -180,11 +172,8 @@ fn a_squeeze_film_damps_as_its_coefficient() {
         "[springs.film]\nkind = \"journal_bearing\"\nbase = \"ground\"\ntip = \"rotor\"\nradius = 0.05\nlength = 0.02\nclearance = 2e-4\n\
          viscosity = 0.02\nfilm = \"full\"\n[springs.cage]\nkind = \"bearing\"\nbase = \"ground\"\ntip = \"rotor\"\nstiffness = 2e6\n[analysis]",
     );
-    let set = [
-        ("parameters.omega", "0".to_owned()),
-        ("bodies.rotor.velocity", "[0, 3e-4, 0]".to_owned()),
-        ("analysis.end", "0.05".to_owned()),
-    ];
+    let set =
+        [("parameters.omega", "0"), ("bodies.rotor.velocity", "[0, 3e-4, 0]"), ("analysis.end", "0.05")];
     let record = run(&text, &set);
     let damping = std::f64::consts::PI * 0.02 * 0.05 * 8e-6 / 8e-12;
     let (decay, rate) = (damping / 40.0, 2e6_f64 / 20.0);
@@ -229,7 +218,7 @@ relative_tolerance = 1e-9
 
 #[test]
 fn a_bushing_as_a_screw_is_the_same_from_both_sides() {
-    let swapped = [("springs.mount.base", "\"b\"".to_owned()), ("springs.mount.tip", "\"a\"".to_owned())];
+    let swapped = [("springs.mount.base", "\"b\""), ("springs.mount.tip", "\"a\"")];
     let [one, other] = [run(MOUNT, &[]), run(MOUNT, &swapped)];
     let base_axes = run(&MOUNT.replace("form = \"screw\"", ""), &swapped);
     let last = |record: &Record, part: &str, component: &str| {

@@ -2,6 +2,8 @@
 
 use lissom::{Model, Override, Record, SessionError};
 
+use crate::support::runs::run;
+
 /// A carriage on a soft spring, and a mass on it on a stiff one, which is loaded suddenly: the force of the stiff spring
 /// vibrates, with displacements of hundredths of a millimetre beside a motion of decimetres.
 const CARRIAGE: &str = r#"
@@ -58,12 +60,7 @@ output_step = 0.002
 "#;
 
 fn record(settings: &[(&str, &str)]) -> Record {
-    let settings: Vec<Override> =
-        settings.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let mut session = Model::from_text("carriage.toml", CARRIAGE).session(&settings).unwrap();
-    let (record, report) = session.record();
-    assert!(report.error().is_none(), "{:?}", report.error().map(ToString::to_string));
-    record
+    run(CARRIAGE, settings)
 }
 
 /// Largest error of the force of the stiff spring relative to the largest force, from the two modes of the linear model.

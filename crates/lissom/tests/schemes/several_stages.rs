@@ -4,11 +4,8 @@ use crate::support::{example, runs};
 
 /// The last position, and the norm of the reaction, of the pendulum after a second.
 fn pendulum(scheme: &str, steps: u32) -> [f64; 2] {
-    let overrides = [
-        runs::set("analysis.scheme", scheme),
-        runs::set("analysis.step", &format!("{}", 1.0 / f64::from(steps))),
-        runs::set("analysis.tolerance", "1e-12"),
-    ];
+    let step = (1.0 / f64::from(steps)).to_string();
+    let overrides = [("analysis.scheme", scheme), ("analysis.step", &step), ("analysis.tolerance", "1e-12")];
     let text = std::fs::read_to_string(example("pendulum")).expect("an example");
     let record = runs::run(&text, &overrides);
     let forces = ["f1", "f2"].map(|component| runs::last(&record, "force", component));

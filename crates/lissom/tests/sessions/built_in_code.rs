@@ -1,6 +1,9 @@
 //! Models built in code are those of files, to the last bit; their errors are reported.
 
 use lissom::builder::analyses::{Dynamics, Statics};
+
+use crate::support::runs;
+
 use lissom::builder::joints::{
     Clamp, Friction, PrescribedRotation, Prismatic, Revolute, Spherical, SwingArm,
 };
@@ -25,8 +28,7 @@ fn results(model: &Model, overrides: &[Override]) -> (Record, usize) {
 
 /// The same numbers from the file of this name in the folder of examples, and from code.
 fn assert_same(file: &str, builder: &ModelBuilder, overrides: &[(&str, &str)]) {
-    let overrides: Vec<Override> =
-        overrides.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+    let overrides = runs::overrides(overrides);
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(file);
     let of_file = results(&Model::read(&path).unwrap(), &overrides);
     let built = builder.build().unwrap_or_else(|report| panic!("{}", report.render(false)));

@@ -1,6 +1,6 @@
 //! Stops, friction in joints, bushings, rotors and solids, against closed forms.
 
-use crate::support::refused;
+use crate::support::refused::refused_on_one_line as refused;
 use crate::support::sessions;
 
 use lissom::{Model, Session};
@@ -8,11 +8,6 @@ use lissom_motion::{Rotation, Vector3};
 use sessions::{finished, session};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"];
-
-/// Why a model is rejected, on one line.
-fn refused(text: &str) -> String {
-    refused::refused(text).split_whitespace().collect::<Vec<_>>().join(" ")
-}
 
 /// A column of a whole run, with its times.
 fn column(text: &str, output: &str, component: &str) -> (Vec<f64>, Vec<f64>) {

@@ -141,7 +141,7 @@ fn an_axial_jolt_does_not_shake_a_blade_across() {
         assert_eq!(codes.contains(&"modes-left-out"), modes == 0, "{modes} modes: {codes:?}");
         for (component, allowed) in [("f3", 2.5), ("m2", 2.5), ("f1", 1.05)] {
             let [exact, found] = [&exact, &found].map(|record| {
-                column(record, "root", component).into_iter().fold(0.0_f64, |most, own| most.max(own.abs()))
+                column(record, "root", component).iter().fold(0.0_f64, |most, own| most.max(own.abs()))
             });
             assert!(found < allowed * exact, "{modes} modes, {component}: {found}, beam {exact}");
         }
@@ -172,9 +172,7 @@ fn a_swinging_blade_never_pushes_on_its_hinge() {
             // Few modes alone are stiffer and drift in phase: the largest force counts.
             for component in ["f1", "f2"] {
                 let [exact, found] = [&*exact, &found].map(|record| {
-                    column(record, "root", component)
-                        .into_iter()
-                        .fold(0.0_f64, |most, own| most.max(own.abs()))
+                    column(record, "root", component).iter().fold(0.0_f64, |most, own| most.max(own.abs()))
                 });
                 assert!(
                     found < 1.3 * exact,
@@ -182,7 +180,7 @@ fn a_swinging_blade_never_pushes_on_its_hinge() {
                 );
             }
             let energy = column(&found, "energy", "total");
-            let most = column(&found, "energy", "kinetic").into_iter().fold(0.0, f64::max);
+            let most = column(&found, "energy", "kinetic").iter().copied().fold(0.0, f64::max);
             let drift = energy.iter().map(|own| (own - energy[0]).abs()).fold(0.0, f64::max);
             assert!(drift < 1e-3 * most, "{modes} modes, corrections {corrections}: {drift} of {most}");
         }
@@ -219,9 +217,7 @@ fn a_hard_stop_is_that_of_the_beam_to_second_order() {
             );
             for component in ["f1", "f2", "m3"] {
                 let [exact, found] = [&exact, &found].map(|record| {
-                    column(record, "root", component)
-                        .into_iter()
-                        .fold(0.0_f64, |most, own| most.max(own.abs()))
+                    column(record, "root", component).iter().fold(0.0_f64, |most, own| most.max(own.abs()))
                 });
                 let error = (found / exact - 1.0).abs();
                 assert!(error < largest, "{modes} modes, {speed} rad/s, {component}: {found}, beam {exact}");

@@ -1,5 +1,7 @@
 //! Superelements: reduced beams against beams, rigid motion, prestress, files, and all schemes.
 
+use crate::support::runs::{column, last, set};
+
 mod against_beams;
 mod deformed;
 mod load_stiffness;
@@ -13,18 +15,6 @@ use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
-
-fn set(path: &str, value: &str) -> (String, String) {
-    (path.to_owned(), value.to_owned())
-}
-
-fn column(record: &lissom::Record, output: &str, component: &str) -> Vec<f64> {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}")).to_vec()
-}
-
-fn last(record: &lissom::Record, output: &str, component: &str) -> f64 {
-    *column(record, output, component).last().expect("steps")
-}
 
 /// A slender beam along x, of eight elements.
 fn beam(rest: &str) -> String {
@@ -481,9 +471,10 @@ fn slider_cranks() -> (Model, Model) {
 
 /// By which part of the largest deflection of the rod the two differ, and that deflection [m].
 fn rod_error(exact: &Model, model: &Model, overrides: &[(String, String)]) -> (f64, f64) {
-    let columns = [exact, model].map(|model| column(&ran(model, overrides), "deflection", "u2"));
+    let records = [exact, model].map(|model| ran(model, overrides));
+    let columns = records.each_ref().map(|record| column(record, "deflection", "u2"));
     let most = columns[0].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let wrong = columns[0].iter().zip(&columns[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let wrong = columns[0].iter().zip(columns[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     (wrong / most, most)
 }
 
@@ -517,7 +508,7 @@ fn pins_of_the_slider_crank_are_loaded_as_by_the_beam() {
             for component in ["f1", "f2"] {
                 let [exact, found] = [&exact, &found].map(|record| column(record, pin, component));
                 let most = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-                let wrong = exact.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let wrong = exact.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 assert!(wrong < 0.02 * most, "{speed} 1/min, {scheme}, {pin}.{component}: {wrong} of {most}");
             }
         }

@@ -58,7 +58,7 @@ fn modal_coordinates_and_what_is_recovered_of_them() {
         let (one, other) = (of(one.0, one.1), of(other.0, other.1));
         let most = other.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(most > 1e-6, "it moves");
-        for (one, other) in one.iter().zip(&other) {
+        for (one, other) in one.iter().zip(other) {
             assert!((one - factor * other).abs() < 1e-9 * most, "{one} {other}");
         }
     }
@@ -94,7 +94,7 @@ fn modal_coordinates_are_in_the_units_of_the_file() {
     let most = kinetic.iter().fold(0.0_f64, |most, value| most.max(*value));
     let (v1, v2) = (of("modes", "v1"), of("modes", "v2"));
     assert!(most > 1e-9);
-    for (kinetic, (v1, v2)) in kinetic.iter().zip(v1.iter().zip(&v2)) {
+    for (kinetic, (v1, v2)) in kinetic.iter().zip(v1.iter().zip(v2)) {
         let own = 0.5 * (v1 * v1 + v2 * v2);
         assert!((kinetic - own).abs() < 1e-6 * most, "{kinetic} {own}");
     }

@@ -9,6 +9,7 @@ pub(crate) mod program;
 pub(crate) mod rail;
 pub(crate) mod refused;
 pub(crate) mod runs;
+pub(crate) mod series;
 pub(crate) mod sessions;
 pub(crate) mod truss;
 

@@ -3,12 +3,14 @@
 use lissom::path::{PathReport, PathSession, PathSessionError};
 use lissom::{Model, Record};
 
+use super::runs;
+
 pub(crate) fn start(text: &str, overrides: &[(&str, &str)]) -> Result<PathSession, String> {
-    let overrides: Vec<(String, String)> =
-        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    PathSession::new(&Model::from_text("model.toml", text), &overrides).map_err(|error| match error {
-        PathSessionError::Model(report) => report.render(false),
-        other => other.to_string(),
+    PathSession::new(&Model::from_text("model.toml", text), &runs::overrides(overrides)).map_err(|error| {
+        match error {
+            PathSessionError::Model(report) => report.render(false),
+            other => other.to_string(),
+        }
     })
 }
 

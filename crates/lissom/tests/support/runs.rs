@@ -1,45 +1,59 @@
-//! Runs of models written in tests of joints.
+//! Runs of models that are written in tests.
 
-use lissom::{Model, Record, Session, SessionError};
+use lissom::{Model, Override, Record, Session, SessionError};
 
 /// All schemes of motion.
 pub(crate) const SCHEMES: [&str; 5] =
     ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
 /// An override.
-pub(crate) fn set(path: &str, value: &str) -> (String, String) {
+pub(crate) fn set(path: &str, value: &str) -> Override {
     (path.to_owned(), value.to_owned())
 }
 
-/// The rows of a model that reaches its end.
-pub(crate) fn run(text: &str, overrides: &[(String, String)]) -> Record {
-    let mut session = match Model::from_text("model.toml", text).session(overrides) {
+/// Overrides.
+pub(crate) fn overrides(set: &[(&str, &str)]) -> Vec<Override> {
+    set.iter().map(|(path, value)| self::set(path, value)).collect()
+}
+
+/// A session at its start.
+pub(crate) fn session(text: &str, set: &[(&str, &str)]) -> Session {
+    match Model::from_text("model.toml", text).session(&overrides(set)) {
         Ok(session) => session,
         Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
         Err(error) => panic!("{error}"),
-    };
+    }
+}
+
+/// The rows of a session that reaches its end.
+pub(crate) fn record(session: &mut Session) -> Record {
     let (record, report) = session.record();
     assert!(report.is_complete(), "{:?}", report.error());
     record
 }
 
+/// The rows of a model that reaches its end.
+pub(crate) fn run(text: &str, set: &[(&str, &str)]) -> Record {
+    record(&mut session(text, set))
+}
+
+/// The same without any warning.
+pub(crate) fn run_without_warnings(text: &str, set: &[(&str, &str)]) -> Record {
+    let mut session = session(text, set);
+    let record = record(&mut session);
+    let warnings: Vec<_> = session.warnings().map(ToString::to_string).collect();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    record
+}
+
 /// One column.
-pub(crate) fn column(record: &Record, output: &str, component: &str) -> Vec<f64> {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}")).to_vec()
+pub(crate) fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
+    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
 }
 
 /// Its last value.
 pub(crate) fn last(record: &Record, output: &str, component: &str) -> f64 {
     *column(record, output, component).last().expect("steps")
-}
-
-/// The message about a wrong model.
-pub(crate) fn reported(text: &str) -> String {
-    match Model::from_text("wrong.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("not rejected"),
-    }
 }
 
 /// With every scheme a model restored in the middle goes on to the last bit: a snapshot at the first time [s], values at the

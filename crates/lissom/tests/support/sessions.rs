@@ -1,19 +1,17 @@
 //! Sessions of models that are good.
 
-use lissom::{Model, Session};
+use lissom::Session;
+
+use super::runs;
 
 /// A session at its start.
 pub(crate) fn session(text: &str) -> Session {
-    match Model::from_text("model.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(error) => panic!("{text}\n{error}"),
-    }
+    runs::session(text, &[])
 }
 
 /// A session at its end.
 pub(crate) fn finished(text: &str) -> Session {
     let mut session = session(text);
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{text}\n{report:?}");
+    runs::record(&mut session);
     session
 }

@@ -1,12 +1,14 @@
 //! Natural modes against closed forms.
 
-use lissom::AnalysisWarning;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
+use lissom::AnalysisWarning;
 use lissom::Model;
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes};
 use lissom_core::linearized::{Completeness, ModeKind};
+
+use crate::support::paths::near;
 
 fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
     try_find(text, about, count).unwrap_or_else(|error| panic!("{error}"))
@@ -15,14 +17,6 @@ fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
 fn try_find(text: &str, about: OperatingPoint, count: usize) -> Result<ModeReport, ModesError> {
     let request = ModeRequest { count: Some(count), about: Some(about), ..ModeRequest::default() };
     modes(&Model::from_text("model.toml", text), &[], &request)
-}
-
-fn near(found: f64, exact: f64, tolerance: f64) {
-    assert!(
-        (found - exact).abs() <= tolerance * exact.abs(),
-        "{found} for {exact}: {:e}",
-        found / exact - 1.0
-    );
 }
 
 fn frequencies(report: &ModeReport) -> Vec<f64> {

@@ -9,16 +9,14 @@ use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::response::{ResponseRequest, response};
 use lissom_core::linearized::{Completeness, ModeKind};
 
+use crate::support::paths::near;
+
 const GRAVITY: f64 = 9.81;
 
 fn find(text: &str, count: usize) -> ModeReport {
     let request =
         ModeRequest { count: Some(count), about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
     modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn near(found: f64, exact: f64, tolerance: f64) {
-    assert!((found - exact).abs() <= tolerance * exact.abs(), "{found} for {exact}");
 }
 
 /// A ball on a plane, held by springs along x and y at its centre.

@@ -5,29 +5,12 @@ mod oriented;
 
 use std::f64::consts::PI;
 
-use lissom::{Model, Record, Session, SessionError};
 use nalgebra::{DMatrix, DVector};
 
+use crate::support::refused;
+use crate::support::runs::{column, run, session};
+
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
-
-fn session(text: &str, set: &[(&str, &str)]) -> Session {
-    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    match Model::from_text("slider.toml", text).session(&given) {
-        Ok(session) => session,
-        Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn run(text: &str, set: &[(&str, &str)]) -> Record {
-    let (record, report) = session(text, set).record();
-    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
-    record
-}
-
-fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
-}
 
 /// A stiff, light bar that turns about the origin in the plane x-y at 2 rad/s; a bead of 0.7 kg slides outwards from 0.5 m.
 const TURNING: &str = r#"
@@ -322,11 +305,7 @@ fn what_makes_no_sense_is_refused() {
     let refused = |from: &str, to: &str, wanted: &str| {
         let text = TURNING.replace("ORDER", "2");
         assert!(text.contains(from), "{from}");
-        let started = Model::from_text("slider.toml", &text.replace(from, to)).session(&[]).map(|_| ());
-        let message = match started.expect_err(wanted) {
-            SessionError::Model(report) => report.render(false),
-            other => other.to_string(),
-        };
+        let message = refused::refused(&text.replace(from, to));
         assert!(message.contains(wanted), "{message}");
     };
     refused("position = [0.5, 0, 0]", "position = [0.5, 0, 0.1]", "is 0.1 m away from it");
