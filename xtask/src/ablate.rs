@@ -180,7 +180,7 @@ fn run_once(subject: &Subject, change: &Change) -> Finished {
     if let Change::Key(further) = change {
         overrides.push(further.clone());
     }
-    let document = subject.model.document(&overrides);
+    let document = subject.model.with_overrides(&overrides).document();
     let mut lowered = match document.and_then(|document| lower(&document)) {
         Ok(lowered) => lowered,
         Err(report) => return failed(report.render(false)),
@@ -193,7 +193,7 @@ fn run_once(subject: &Subject, change: &Change) -> Finished {
         Err(error) => return failed(error.to_string()),
     };
     let before = processor_time();
-    let report = session.run(&mut [], &mut |_| ControlFlow::Continue(()));
+    let report = session.run_with(&mut [], &mut |_| ControlFlow::Continue(()));
     let busy = processor_time().zip(before).map_or(report.solving, |(now, then)| now.saturating_sub(then));
     let mut values = Vec::new();
     session.values(&mut values);

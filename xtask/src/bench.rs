@@ -114,12 +114,12 @@ fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
     let fail = |message: String| failed(&scene.name, message);
     let before = resident();
     let model = Model::from_text(&scene.name, &scene.text);
-    let document = model.document(overrides).map_err(|report| fail(report.render(false)))?;
+    let document = model.with_overrides(overrides).document().map_err(|report| fail(report.render(false)))?;
     let mut session = Session::new(&document).map_err(|error| fail(error.to_string()))?;
     drop(document);
     let bytes = resident().zip(before).map(|(after, before)| after.saturating_sub(before));
     let (wall, busy) = (std::time::Instant::now(), processor_time());
-    let report = session.run(&mut [], &mut |_| ControlFlow::Continue(()));
+    let report = session.run_with(&mut [], &mut |_| ControlFlow::Continue(()));
     let wall = wall.elapsed();
     // The share of the wall time in which this thread had a processor.
     let busy = processor_time().zip(busy).map_or(wall, |(now, then)| now.saturating_sub(then));
@@ -258,7 +258,7 @@ fn errors(arguments: &BenchArguments) -> Result<(), BenchError> {
         let scene = find(name)?;
         let fine = |text: &str| ("analysis.tolerance".to_owned(), text.to_owned());
         let model = Model::from_text(&scene.name, &scene.text);
-        let document = model.document(&[]).map_err(|report| failed(name, report.render(false)))?;
+        let document = model.document().map_err(|report| failed(name, report.render(false)))?;
         let AnalysisKind::Dynamics { step, .. } = document.analysis.kind else { continue };
         let short = ("analysis.step".to_owned(), format!("{:e}", step.value / REFINED));
         let end = |more: &[Override]| last_place(&model, &[&arguments.overrides()[..], more].concat());
@@ -275,9 +275,12 @@ const REFINED: f64 = 16.0;
 
 /// The first output at the end.
 fn last_place(model: &Model, overrides: &[Override]) -> Result<Vec<f64>, BenchError> {
-    let document = model.document(overrides).map_err(|report| failed(model.name(), report.render(false)))?;
+    let document = model
+        .with_overrides(overrides)
+        .document()
+        .map_err(|report| failed(model.name(), report.render(false)))?;
     let mut session = Session::new(&document).map_err(|error| failed(model.name(), error.to_string()))?;
-    let report = session.run(&mut [], &mut |_| ControlFlow::Continue(()));
+    let report = session.run_with(&mut [], &mut |_| ControlFlow::Continue(()));
     if let Some(error) = report.error() {
         return Err(failed(model.name(), error.to_string()));
     }

@@ -187,11 +187,11 @@ pub(crate) fn collisions(arguments: &CaseArguments) -> bool {
 /// Runs a case, and compares its end with the reference.
 fn trial(case: Case) -> Outcome {
     let (columns, velocity) = case.compared();
-    let mut session = match Model::from_text("model.toml", &case.text()).session(&[]) {
+    let mut session = match Model::from_text("model.toml", &case.text()).session() {
         Ok(session) => session,
         Err(error) => return Outcome::Reported(error.to_string()),
     };
-    let (_, report) = session.record();
+    let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if !report.is_complete() {
         return Outcome::Reported(format!("{:?}", report.stopped));
     }

@@ -157,11 +157,11 @@ pub(crate) fn contacts(arguments: &ContactsArguments) -> bool {
 }
 
 fn trial(scene: &Scene) -> Outcome {
-    let mut session = match Model::from_text("scene.toml", &scene.text).session(&[]) {
+    let mut session = match Model::from_text("scene.toml", &scene.text).session() {
         Ok(session) => session,
         Err(error) => return Outcome::Reported(error.to_string()),
     };
-    let (record, report) = session.record();
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if let Some(error) = report.error() {
         return Outcome::Reported(error.to_string());
     }
@@ -208,7 +208,7 @@ mod tests {
     fn scenes_are_models() {
         for index in 0..30 {
             let scene = Scene::new(7, index);
-            let session = Model::from_text("scene.toml", &scene.text).session(&[]);
+            let session = Model::from_text("scene.toml", &scene.text).session();
             assert!(
                 session.is_ok(),
                 "{index}: {}\n{}",

@@ -300,8 +300,9 @@ fn adaptive(name: &str) -> Result<(), CountError> {
     counted_work(|| {
         let model = Model::from_text(&scene.name, &text);
         let set = [("analysis.end".to_owned(), (*end).to_owned())];
-        let mut session = Session::new(&model.document(&set).map_err(of_report)?).map_err(failed)?;
-        let report = session.run(&mut [], &mut |_| std::ops::ControlFlow::Continue(()));
+        let mut session =
+            Session::new(&model.with_overrides(&set).document().map_err(of_report)?).map_err(failed)?;
+        let report = session.run_with(&mut [], &mut |_| std::ops::ControlFlow::Continue(()));
         report.error().map_or(Ok(()), |error| Err(CountError::Failed(error.to_string())))
     })
 }
@@ -314,8 +315,9 @@ fn example(name: &str) -> Result<(), CountError> {
     counted_work(|| {
         let model = Model::read(&path).map_err(failed)?;
         let set = [("analysis.end".to_owned(), (*end).to_owned())];
-        let mut session = Session::new(&model.document(&set).map_err(of_report)?).map_err(failed)?;
-        let (_, report) = session.record();
+        let mut session =
+            Session::new(&model.with_overrides(&set).document().map_err(of_report)?).map_err(failed)?;
+        let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
         report.error().map_or(Ok(()), |error| Err(CountError::Failed(error.to_string())))
     })
 }
@@ -327,7 +329,7 @@ fn model(name: &str, more: &str) -> Result<Model, CountError> {
 }
 
 fn document(model: &Model) -> Result<lissom::Document, CountError> {
-    model.document(&[]).map_err(of_report)
+    model.document().map_err(of_report)
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "it is passed to map_err")]

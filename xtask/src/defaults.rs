@@ -145,7 +145,7 @@ fn list<T: AsRef<str>>(names: &[T]) -> String {
 
 /// How long the motion is [s], where the model is one of motion.
 fn duration(subject: &Subject) -> Option<f64> {
-    let document = subject.model.document(&subject.overrides).ok()?;
+    let document = subject.model.with_overrides(&subject.overrides).document().ok()?;
     match document.analysis.kind {
         AnalysisKind::Dynamics { .. } => Some(document.analysis.end - document.analysis.start),
         _ => None,
@@ -161,10 +161,10 @@ fn run(subject: &Subject, duration: f64, scheme: &str, tolerance: f64) -> Option
         set("output_step", format!("{:e}", duration / RECORDS)),
         set("output_every", "1".to_owned()),
     ]);
-    let document = subject.model.document(&overrides).ok()?;
+    let document = subject.model.with_overrides(&overrides).document().ok()?;
     let mut session = Session::new(&document).ok()?;
     let before = processor_time();
-    let (record, report) = session.record();
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     let busy = processor_time().zip(before).map_or(report.solving, |(now, then)| now.saturating_sub(then));
     let is_warned = session.warnings().next().is_some();
     report.error().is_none().then(|| Ran { record, is_warned, seconds: busy.as_secs_f64().max(1e-6) })

@@ -157,8 +157,8 @@ fn text(mechanism: &str) -> String {
 fn run(text: &str, settings: &[Override]) -> Result<Record, String> {
     let attempt = || -> Result<Record, String> {
         let model = Model::from_text("random.toml", text);
-        let mut session = model.session(settings).map_err(|error| error.to_string())?;
-        let (record, report) = session.record();
+        let mut session = model.with_overrides(settings).session().map_err(|error| error.to_string())?;
+        let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
         report.error().map_or(Ok(record), |error| Err(error.to_string()))
     };
     catch_unwind(AssertUnwindSafe(attempt)).unwrap_or_else(|_| Err("a panic".to_owned()))

@@ -69,8 +69,10 @@ fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<(f64,
     let tight = |path: &str, value: f64| (path.to_owned(), format!("{value:?}"));
     let overrides = [tight("analysis.end", invariant.end), tight("analysis.tolerance", TOLERANCE)];
     let run = |name: &str, text: &str| {
-        let document =
-            Model::from_text(name, text).document(&overrides).map_err(|report| report.render(false))?;
+        let document = Model::from_text(name, text)
+            .with_overrides(&overrides)
+            .document()
+            .map_err(|report| report.render(false))?;
         let finished = finish(&document)?;
         match finished.failure {
             Some(failure) => Err(format!("{name} failed {failure}")),

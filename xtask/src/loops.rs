@@ -250,11 +250,11 @@ pub(crate) fn loops(arguments: &CaseArguments) -> bool {
 
 /// Runs a case, and compares its records with the closed form.
 fn trial(case: &Case) -> Outcome {
-    let mut session = match Model::from_text("model.toml", &case.text()).session(&[]) {
+    let mut session = match Model::from_text("model.toml", &case.text()).session() {
         Ok(session) => session,
         Err(error) => return Outcome::Reported(error.to_string()),
     };
-    let (record, report) = session.record();
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if !report.is_complete() {
         return Outcome::Reported(format!("{:?}", report.stopped));
     }

@@ -217,7 +217,7 @@ fn model_of_joints() -> String {
 fn joints() -> Result<Vec<u8>, PicturesError> {
     let wrong = |error: &dyn Display| PicturesError::Joints(error.to_string());
     let model = Model::from_text("joints.toml", &model_of_joints());
-    let document = model.document(&[]).map_err(|error| wrong(&error))?;
+    let document = model.document().map_err(|error| wrong(&error))?;
     let lowered = lower(&document).map_err(|error| wrong(&error))?;
     let mut motion = Vec::new();
     let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
@@ -237,7 +237,7 @@ fn joints() -> Result<Vec<u8>, PicturesError> {
 fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
     let vary = Variation { path: "parameters.speed".to_owned(), from: 5.0, to: 200.0, values: 27 };
     let request = CampbellRequest { vary, count: 4, rays: vec![1, 2, 3] };
-    let found = campbell(&Model::from_text("rotor.toml", ROTOR), &[], &request)?;
+    let found = campbell(&Model::from_text("rotor.toml", ROTOR), &request)?;
     Ok(found.diagram("Overhung disc").and_then(|drawn| drawn.svg()).map_err(FolderError::from)?.into_bytes())
 }
 

@@ -94,7 +94,7 @@ fn run(model: &Model, scheme: &str, tolerance: f64, end: Option<f64>) -> Result<
     let mut overrides =
         vec![set("scheme", format!("\"{scheme}\"")), set("relative_tolerance", format!("{tolerance:e}"))];
     overrides.extend(end.map(|end| set("end", format!("{end:e}"))));
-    let document = model.document(&overrides).map_err(|report| report.render(false))?;
+    let document = model.with_overrides(&overrides).document().map_err(|report| report.render(false))?;
     let end = document.analysis.end;
     let lowered = lower(&document).map_err(|report| report.render(false))?;
     let mut simulation = Simulation::new(lowered.system, lowered.state, lowered.settings)
@@ -127,8 +127,8 @@ fn without_steps(model: &Model) -> Model {
         "output_every",
     ];
     let paths = keys.map(|key| format!("analysis.{key}"));
-    let is_known = |path: &String| model.clone().without(vec![path.clone()]).document(&[]).is_ok();
-    model.clone().without(paths.into_iter().filter(is_known).collect())
+    let is_known = |path: &&String| model.without(path).document().is_ok();
+    paths.iter().filter(is_known).fold(model.clone(), |model, path| model.without(path))
 }
 
 /// The largest difference of positions [m] and rotations [rad].

@@ -63,9 +63,10 @@ impl Runs {
             None => run.model(&case.folder).map_err(|error| error.to_string())?,
             Some(elements) => self.blade(case, run, elements)?,
         };
-        let document = model.document(&key.1).map_err(|report| report.render(false))?;
+        let model = model.with_overrides(&key.1);
+        let document = model.document().map_err(|report| report.render(false))?;
         let finished = Rc::new(match document.analysis.kind {
-            AnalysisKind::Modes { .. } => modes(&model, &key.1, &document)?,
+            AnalysisKind::Modes { .. } => modes(&model, &document)?,
             _ => finish(&document)?,
         });
         self.finished.borrow_mut().insert(key, Rc::clone(&finished));
@@ -104,7 +105,7 @@ impl Runs {
 pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
     let began = Instant::now();
     let mut session = lissom::Session::new(document).map_err(|error| error.to_string())?;
-    let (record, report) = session.record();
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     let of_document = document.warnings.problems().map(|problem| problem.message.clone());
     let warnings = of_document.chain(session.warnings().map(ToString::to_string)).collect();
     Ok(Finished {
@@ -118,10 +119,9 @@ pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
 }
 
 /// Natural modes as a record: their number in the place of time, `mode_frequency` [Hz] and `mode_damping`.
-fn modes(model: &Model, overrides: &[Override], document: &Document) -> Result<Finished, String> {
+fn modes(model: &Model, document: &Document) -> Result<Finished, String> {
     let began = Instant::now();
-    let found =
-        lissom::modes::modes(model, overrides, &ModeRequest::default()).map_err(|error| error.to_string())?;
+    let found = lissom::modes::modes(model, &ModeRequest::default()).map_err(|error| error.to_string())?;
     let column = |component: &str, quantity: &str, unit: &str| Column {
         output: "mode".to_owned(),
         component: component.to_owned(),

@@ -395,7 +395,7 @@ mod tests {
         for name in KEPT {
             let scene = scene(name).unwrap();
             let model = lissom::Model::from_text(&scene.name, &scene.text);
-            model.document(&[]).unwrap_or_else(|report| panic!("{name}: {}", report.render(false)));
+            model.document().unwrap_or_else(|report| panic!("{name}: {}", report.render(false)));
         }
     }
 

@@ -133,7 +133,7 @@ pub(crate) fn cases() -> Result<Vec<Subject>, VerifyError> {
         for (name, run) in &case.runs {
             let model = run.model(&case.folder)?;
             let overrides = run.overrides(&std::collections::BTreeMap::new());
-            let Ok(document) = model.document(&overrides) else { continue };
+            let Ok(document) = model.with_overrides(&overrides).document() else { continue };
             if matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. })
             {
                 all.push(Subject { name: format!("{} {name}", case.name), model, overrides });
@@ -145,7 +145,7 @@ pub(crate) fn cases() -> Result<Vec<Subject>, VerifyError> {
 
 /// The same model with steps that are so many times as long, each of them recorded.
 fn with_longer_steps(name: &str, model: &Model, longer: f64) -> Option<Subject> {
-    let document = model.document(&[]).ok()?;
+    let document = model.document().ok()?;
     let AnalysisKind::Dynamics { step, .. } = document.analysis.kind else { return None };
     let set = |path: &str, value: String| (format!("analysis.{path}"), value);
     let overrides =

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 use lissom::fmu::{Causality, Interface, MODEL_FILE, PackedModel, Variable};
-use lissom::{Model, Override, Session, SessionSnapshot, sealed};
+use lissom::{Model, Session, SessionSnapshot, sealed};
 use serde::{Deserialize, Serialize};
 
 /// Communication points this close, relative to the step, are equal.
@@ -30,7 +30,6 @@ pub(crate) struct Stepped {
 
 /// An instance of a unit.
 pub(crate) struct Instance {
-    packed: PackedModel,
     model: Model,
     interface: Interface,
     given: Given,
@@ -103,8 +102,8 @@ impl Instance {
             return Err("the instantiation token is not that of the model among the resources".to_owned());
         }
         let model = packed.model();
-        let interface = Interface::of(&model, &packed.overrides).map_err(words)?;
-        Ok(Self { packed, model, interface, given: Given::nothing(), session: None, values: Vec::new() })
+        let interface = Interface::of(&model).map_err(words)?;
+        Ok(Self { model, interface, given: Given::nothing(), session: None, values: Vec::new() })
     }
 
     fn expect(&self, phases: &[Phase], what: &str) -> Result<(), String> {
@@ -144,24 +143,21 @@ impl Instance {
         self.session = None;
     }
 
-    /// Overrides of the model: those with which it was packed, parameters, and another first time.
-    fn overrides(&self) -> Vec<Override> {
-        let mut all = self.packed.overrides.clone();
-        for (&index, value) in &self.given.parameters {
-            all.push((quoted_path(&self.interface.variables[index].name), format!("{value:?}")));
+    /// The model with parameters, and with another first time.
+    fn given_model(&self) -> Model {
+        let mut model = self.model.clone();
+        for (&index, &value) in &self.given.parameters {
+            model = model.with(&quoted_path(&self.interface.variables[index].name), value);
         }
-        if let Some(start) = self.given.start {
-            let [first, last] = self.interface.span;
-            all.push(("analysis.start".to_owned(), format!("{start:?}")));
-            all.push(("analysis.end".to_owned(), format!("{:?}", start + (last - first))));
-        }
-        all
+        let Some(start) = self.given.start else { return model };
+        let [first, last] = self.interface.span;
+        model.with("analysis.start", start).with("analysis.end", start + (last - first))
     }
 
     /// The session, started if there is none, with all inputs set.
     fn session(&mut self) -> Result<&mut Session, String> {
         if self.session.is_none() {
-            self.session = Some(self.model.session(&self.overrides()).map_err(words)?);
+            self.session = Some(self.given_model().session().map_err(words)?);
             self.given.pending = self.given.inputs.keys().copied().collect();
         }
         let session = self.session.as_mut().ok_or_else(String::new)?;
@@ -283,7 +279,7 @@ impl Instance {
             }
             Some(snapshot) => match &mut self.session {
                 Some(session) if is_same => session.restore(snapshot).map_err(words),
-                _ => self.model.session(&self.overrides()).map_err(words).and_then(|mut session| {
+                _ => self.given_model().session().map_err(words).and_then(|mut session| {
                     session.restore(snapshot).map_err(words)?;
                     self.session = Some(session);
                     Ok(())

@@ -27,6 +27,7 @@ mod text;
 pub use document::Document;
 pub use document::model_text::ModelText;
 pub use files::library::{self, Library};
+pub use format::suggest::help as suggestion;
 pub use functions::{table, table_family};
 pub use output::component::component_position;
 pub use outputs::channels;

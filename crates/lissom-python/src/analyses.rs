@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use lissom::analyses::{ANALYSES, Results};
+use lissom::analyses::{ANALYSES, ResultFiles};
 use lissom::linearize::{LinearizeRequest, linearize_session};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
 use lissom::{Document, Record, Session};
@@ -16,7 +16,7 @@ use crate::watch::{Watch, interruptible};
 /// Names and texts of files, the summary as JSON, and warnings.
 pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
 
-fn files(found: Results) -> Files {
+fn files(found: ResultFiles) -> Files {
     (found.tables, json(&found.summary), found.warnings)
 }
 
@@ -29,13 +29,7 @@ pub(crate) fn linearize_here(
 ) -> PyResult<Files> {
     let began = Instant::now();
     let found = linearize_session(session, document, inputs, outputs).map_err(|error| of_analysis(&error))?;
-    Ok(files(Results::of::<LinearizeRequest>(
-        &found,
-        began.elapsed(),
-        model.model.name(),
-        &model.overrides,
-        document,
-    )))
+    Ok(files(ResultFiles::of::<LinearizeRequest>(&found, began.elapsed(), &model.model, document)))
 }
 
 /// Results of the analysis called `name`, for its request as a TOML value.
@@ -45,7 +39,7 @@ pub(crate) fn analyse(model: &NativeModel, py: Python<'_>, name: &str, request: 
     let analysis = known.ok_or_else(|| question(format!("there is no analysis `{name}`")))?;
     let model = model.clone();
     interruptible(py, move || {
-        let found = (analysis.compute)(&model.model, &model.overrides, &request);
+        let found = (analysis.compute)(&model.model, &request);
         Ok(files(found.map_err(|error| of_analysis(&*error))?))
     })
 }
@@ -59,7 +53,7 @@ pub(crate) fn path<'py>(
     let own = model.clone();
     let (mut session, document) = interruptible(py, move || {
         let document = own.document()?;
-        let session = PathSession::new(&own.model, &own.overrides).map_err(|error| match error {
+        let session = PathSession::new(&own.model).map_err(|error| match error {
             PathSessionError::Model(report) => of_report(&report),
             other => refused(matches!(other, PathSessionError::NotAPath(_)), &other),
         })?;
@@ -70,7 +64,7 @@ pub(crate) fn path<'py>(
         let mut watch = Watch::new(None);
         let report = session.run(&mut [&mut record], &mut || watch.ask(0.0, 0.0));
         watch.finish()?;
-        let summary = session.summary(of_request(model.model.name(), &model.overrides, &document), &report);
+        let summary = session.summary(of_request(&model.model, &document), &report);
         let failure = match &report.end {
             PathEnd::Reached => None,
             PathEnd::Interrupted => Some(SolutionError::new_err("interrupted")),

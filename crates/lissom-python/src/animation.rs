@@ -59,11 +59,11 @@ pub(crate) fn animation(
         let bytes = Bytes::default();
         let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, bytes.clone());
         let scene = Scene::of(&document, &lowered.placed());
-        let mut facts = summary::of_model(model.model.name(), &model.overrides, &document, &lowered);
+        let mut facts = summary::of_model(&model.model, &document, &lowered);
         let mut session = Session::start(lowered).map_err(|error| solution(&error))?;
         session.write_states_to(Box::new(recorder));
         let (mut record, mut watch) = (Record::default(), Watch::new(None));
-        let report = session.run(&mut [&mut record], &mut |_| watch.ask(0.0, 0.0));
+        let report = session.run_with(&mut [&mut record], &mut |_| watch.ask(0.0, 0.0));
         watch.finish()?;
         summary::of_run(&mut facts, &session, &report);
         let facts = serde_json::from_str(&facts.to_json()).map_err(|error| of_motion(&error))?;
@@ -80,7 +80,7 @@ pub(crate) fn modes_animation(model: &NativeModel, py: Python<'_>, request: &str
     let model = model.clone();
     interruptible(py, move || {
         let document = model.document()?;
-        let found = request.compute(&model.model, &model.overrides).map_err(|error| of_analysis(&error))?;
+        let found = request.compute(&model.model).map_err(|error| of_analysis(&error))?;
         let lowered = lower(&document).map_err(|report| of_report(&report))?;
         let scene = Scene::of(&document, &lowered.placed());
         let bytes = Bytes::default();

@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::num::NonZero;
 
 use lissom::start::lower;
-use lissom::{Document, Model, Override, SessionError};
+use lissom::{Document, Model, SessionError};
 use lissom_model::document::AnalysisKind;
 use pyo3::prelude::*;
 
@@ -15,25 +15,24 @@ use crate::errors::{of_report, of_session};
 #[pyclass(frozen, module = "lissom._lissom")]
 pub(crate) struct NativeModel {
     pub(crate) model: Model,
-    pub(crate) overrides: Vec<Override>,
 }
 
 impl NativeModel {
-    pub(crate) fn checked(model: Model, overrides: Vec<Override>) -> PyResult<Self> {
-        let document = model.document(&overrides).map_err(|report| of_report(&report))?;
+    pub(crate) fn checked(model: Model) -> PyResult<Self> {
+        let document = model.document().map_err(|report| of_report(&report))?;
         lower(&document).map_err(|report| of_report(&report))?;
-        Ok(Self { model, overrides })
+        Ok(Self { model })
     }
 
     /// The checked document.
     pub(crate) fn document(&self) -> PyResult<Document> {
-        self.model.document(&self.overrides).map_err(|report| of_report(&report))
+        self.model.document().map_err(|report| of_report(&report))
     }
 
     /// A number that distinguishes models by all their inputs: text, overrides, included files.
     pub(crate) fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        (self.model.text(), &self.overrides, self.model.included(), lissom::VERSION).hash(&mut hasher);
+        (self.model.text(), self.model.overrides(), self.model.included(), lissom::VERSION).hash(&mut hasher);
         hasher.finish()
     }
 

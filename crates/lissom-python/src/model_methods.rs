@@ -30,18 +30,18 @@ impl NativeModel {
         overrides: Vec<Override>,
         known: BTreeMap<String, String>,
     ) -> PyResult<Self> {
-        Self::checked(Model::from_text(name, text).with_known(known), overrides)
+        Self::checked(Model::from_text(name, text).with_known(known).with_overrides(&overrides))
     }
 
     /// A model from a file.
     #[staticmethod]
     fn read(path: PathBuf, overrides: Vec<Override>) -> PyResult<Self> {
         let model = Model::read(&path).map_err(|error| errors::of_file(&error))?;
-        Self::checked(model, overrides)
+        Self::checked(model.with_overrides(&overrides))
     }
 
     fn __getnewargs__(&self) -> (&str, &str, Vec<Override>, BTreeMap<String, String>) {
-        (self.model.text(), self.model.name(), self.overrides.clone(), self.model.included())
+        (self.model.text(), self.model.name(), self.overrides(), self.model.included())
     }
 
     /// Path or name.
@@ -53,22 +53,20 @@ impl NativeModel {
     /// Path into the model and TOML value of everything that was put into it.
     #[getter]
     fn overrides(&self) -> Vec<Override> {
-        self.overrides.clone()
+        self.model.overrides().to_vec()
     }
 
     /// The model with further values put into it.
     fn replace(&self, overrides: Vec<Override>) -> PyResult<Self> {
-        let mut all = self.overrides.clone();
-        all.extend(overrides);
-        Self::checked(self.model.clone(), all)
+        Self::checked(self.model.with_overrides(&overrides))
     }
 
     /// The model as TOML, overrides in place; the text as it was written where there are none.
     fn to_toml(&self) -> PyResult<String> {
-        if self.overrides.is_empty() {
+        if self.model.overrides().is_empty() {
             return Ok(self.model.text().to_owned());
         }
-        let text = self.model.model_text(&self.overrides).map_err(|report| of_report(&report))?;
+        let text = self.model.model_text().map_err(|report| of_report(&report))?;
         match text.overrides_inside_parts().as_slice() {
             [] => Ok(text.to_toml()),
             [inside, ..] => Err(PyValueError::new_err(format!(
@@ -158,7 +156,7 @@ impl NativeModel {
     fn simulations(&self, py: Python<'_>, count: NonZero<usize>) -> PyResult<Batch> {
         let own = self.clone();
         interruptible(py, move || {
-            let prepared = own.model.prepare(&own.overrides).map_err(|error| of_session(&error))?;
+            let prepared = own.model.prepare().map_err(|error| of_session(&error))?;
             Batch::new(prepared, count.get())
         })
     }
@@ -171,7 +169,7 @@ impl NativeModel {
         let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
         Self::in_time(&document)?;
         lowered.settings.threads = threads_or_all(threads).get();
-        let mut summary = summary::of_model(self.model.name(), &self.overrides, &document, &lowered);
+        let mut summary = summary::of_model(&self.model, &document, &lowered);
         match Session::start(lowered) {
             Ok(session) => Ok((Ok(session), summary)),
             Err(error) => {
@@ -190,8 +188,9 @@ fn solve(
 ) -> PyResult<(Record, Option<PyErr>)> {
     let mut record = Record::default();
     let mut watch = Watch::new(progress);
-    let report = session
-        .run(&mut [&mut record], &mut |progress| watch.ask(progress.done as f64, progress.planned as f64));
+    let report = session.run_with(&mut [&mut record], &mut |progress| {
+        watch.ask(progress.done as f64, progress.planned as f64)
+    });
     watch.finish()?;
     summary::of_run(summary, session, &report);
     let failure = match &report.stopped {

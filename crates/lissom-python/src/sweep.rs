@@ -38,8 +38,8 @@ impl NativeSweep {
     #[new]
     fn new(py: Python<'_>, model: &NativeModel, text: &str, name: &str) -> PyResult<Self> {
         let file = SweepFile::parse(text, name).map_err(|report| of_report(&report))?;
-        let (model, overrides) = (&model.model, &model.overrides);
-        let sweep = py.detach(|| Sweep::new(model, file, overrides));
+        let model = &model.model;
+        let sweep = py.detach(|| Sweep::new(model, file));
         Ok(Self { sweep: sweep.map_err(|error| of_sweep(&error))? })
     }
 

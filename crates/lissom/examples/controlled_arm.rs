@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rate = builder.add(Signal::new(hinge.rate()));
     builder.add(Dynamics::new(f64::from(COMMANDS) * PERIOD).scheme(Scheme::RadauIia).step(PERIOD));
 
-    let mut session = builder.build()?.session(&[])?;
+    let mut session = builder.build()?.session()?;
     let about_hinge = inertia + mass * distance * distance;
     let mut expected = (0.0, 0.0);
     for command in 1..=COMMANDS {

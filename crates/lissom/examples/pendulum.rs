@@ -38,12 +38,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let period = 2.0 * PI / (omega * agm(1.0, (START / 2.0).cos()));
     builder.add(Dynamics::new(period).relative_tolerance(1e-9).output_step(period / 4.0));
 
-    let mut session = builder.build()?.session(&[])?;
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.stopped);
-    let swing = &record.values[session.columns_of(angle)?.start];
-    let total = &record.values[session.columns_of(energy)?.end - 1];
-    for ((time, swing), energy) in record.times.iter().zip(swing).zip(total) {
+    let mut session = builder.build()?.session()?;
+    let results = session.run()?;
+    let swing = &results.values[session.columns_of(angle)?.start];
+    let total = &results.values[session.columns_of(energy)?.end - 1];
+    for ((time, swing), energy) in results.time().iter().zip(swing).zip(total) {
         println!("t = {time:.6} s  angle = {:+.6} rad  energy = {energy:.9} J", START + swing);
     }
     // From one side through the lowest position to the other, and back.

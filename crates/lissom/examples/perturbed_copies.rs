@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let angle = builder.add(Relative::new(hinge));
     let rate = builder.add(Signal::new(hinge.rate()));
     builder.add(Dynamics::new(5.0).scheme(Scheme::RadauIia).step(0.005));
-    let prepared = builder.build()?.prepare(&[])?;
+    let prepared = builder.build()?.prepare()?;
 
     let handles = Handles { rod, angle, rate };
     let threads = thread::available_parallelism().map_or(1, usize::from);

@@ -12,10 +12,10 @@ use serde_json::{Value, json};
 use toml::de::ValueDeserializer;
 
 use crate::command_error::CommandError;
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::results::folder::ResultFolder;
 
-/// The request of an analysis. With the feature `command-line` its fields are the options of the command.
+/// The request of an analysis. With the feature `clap` its fields are the options of the command.
 pub trait Analysis: DeserializeOwned {
     /// Name of the analysis: that of its command.
     const NAME: &'static str;
@@ -26,11 +26,11 @@ pub trait Analysis: DeserializeOwned {
     /// Its failure.
     type Error: AnalysisError + 'static;
 
-    /// Analyses `model` with `overrides`.
+    /// Analyses `model`.
     ///
     /// # Errors
     /// If the model or the request is invalid, or there is no result.
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<Self::Report, Self::Error>;
+    fn compute(&self, model: &Model) -> Result<Self::Report, Self::Error>;
 }
 
 /// The result of an analysis.
@@ -108,11 +108,10 @@ pub fn request<A: Analysis>(text: &str) -> Result<A, CommandError> {
 pub fn summary<A: Analysis>(
     report: &A::Report,
     wall: Duration,
-    name: &str,
-    overrides: &[Override],
+    model: &Model,
     document: &Document,
 ) -> Summary {
-    let mut summary = crate::results::summary::of_request(A::NAME, name, overrides, document);
+    let mut summary = crate::results::summary::of_request(A::NAME, model, document);
     let mut insert = |name: &str, fact: Value| crate::results::summary::insert(&mut summary, name, fact);
     insert("stopped", json!("end"));
     report.add_facts(&mut insert);

@@ -69,8 +69,7 @@ mod tests {
         assert_eq!(facts(&error), expected);
         let words = "the model cannot be linearised at t = 0.5 s: a reason; choose a time of the analysis, `static` or `undeformed`";
         assert_eq!(error.to_string(), words);
-        let wrong =
-            crate::Model::from_text("a.toml", "lissom = 1\ngravitiy = 1\n").document(&[]).unwrap_err();
+        let wrong = crate::Model::from_text("a.toml", "lissom = 1\ngravitiy = 1\n").document().unwrap_err();
         let diagnostic = wrong.diagnostic();
         assert_eq!((diagnostic.code, diagnostic.cause.as_str()), ("model-file", wrong.to_string().as_str()));
         assert!(!diagnostic.remedy.is_empty());

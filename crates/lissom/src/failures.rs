@@ -19,6 +19,7 @@ use crate::picture::PictureError;
 use crate::results::checkpoint::CheckpointError;
 use crate::results::folder::FolderError;
 use crate::run::report::RunError;
+use crate::run::results::ColumnError;
 use crate::session::{JointCoordinateError, PartError, ReadError, SessionError, StartError};
 use crate::study::StudyError;
 use crate::sweep::SweepError;
@@ -112,6 +113,15 @@ catalogued! {
     } wraps {
         Step { 0 => error } => error.diagnostic(),
     }
+
+    Failure ColumnError {
+        Unknown { name => name, near => near } => "no-column" {
+            cause: "the results have no column `{name}`",
+            remedy: "{near}",
+            meaning: "A column was read from results in memory that was not recorded.",
+            advice: "Columns are named after an output and one of its components, such as `tip.u3`.",
+        }
+    } wraps {}
 
     Failure PathRunError {
         Write { 0 => error } => "path-not-written" {

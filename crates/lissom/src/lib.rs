@@ -3,7 +3,8 @@
 //!
 //! # A model from a file
 //!
-//! [`Model`] contains the text of a [model file](https://toml.io). Overrides change values without changing the text:
+//! [`Model`] contains the text of a [model file](https://toml.io). [`Model::with`] changes values without changing the text;
+//! [`Session::run`] returns [`Results`], or an error with the results so far:
 //!
 //! ```
 //! use lissom::Model;
@@ -17,15 +18,13 @@
 //! "#;
 //! let model = Model::from_text("stone.toml", text);
 //! // The same model at two step sizes; sessions may run in parallel threads.
-//! for step in ["0.1", "0.01"] {
-//!     let overrides = [("analysis.step".to_owned(), step.to_owned())];
-//!     let mut session = model.session(&overrides)?;
-//!     let (record, report) = session.record();
-//!     assert!(report.is_complete());
-//!     let height = record.column("stone", "z").expect("it is recorded");
+//! for step in [0.1, 0.01] {
+//!     let results = model.with("analysis.step", step).session()?.run()?;
+//!     let height = &results["stone.z"];
 //!     assert!((height[height.len() - 1] - (10.0 - 0.5 * 9.81)).abs() < 1e-9);
+//!     assert_eq!(results.time().last(), Some(&1.0));
 //! }
-//! # Ok::<(), lissom::SessionError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # A model built in code
@@ -57,7 +56,7 @@
 //! let model = builder.build()?;
 //!
 //! // Steps end at the requested times; inputs are constant in between.
-//! let mut session = model.session(&[])?;
+//! let mut session = model.session()?;
 //! session.set(push, 10.0)?;
 //! session.step_to(0.25)?;
 //! // x = F/k (1 - cos ωt) with ω² = k/m = 25/s².
@@ -91,7 +90,7 @@
 //! let stone = builder.add(PointMass::new(1.0));
 //! let place = builder.add(Position::new(stone));
 //! builder.add(Dynamics::new(1.0).step(0.1));
-//! let prepared = builder.build()?.prepare(&[])?;
+//! let prepared = builder.build()?.prepare()?;
 //! for speed in [1.0, 2.0, 3.0] {
 //!     let mut state = prepared.state().clone();
 //!     prepared.set_velocity(&mut state, stone, [speed, 0.0, 0.0], [0.0; 3])?;
@@ -147,13 +146,14 @@ pub use lissom_core::diagnostics::{Diagnose, Diagnostic, Severity};
 pub use lissom_model::files::FileError;
 pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
-pub use model::{Model, Override};
+pub use model::{Model, Override, Value};
 pub use motion::RecordedRun;
 pub use results::checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use results::folder::{FolderError, ResultFolder, protect_results};
 pub use results::recorded_modes::RecordedModes;
 pub use results::summary;
 pub use run::report::{EnergyChange, RunError, RunReport, Stopped};
+pub use run::results::{ColumnError, IncompleteRun, Results};
 pub use run::state_writer::StateWriter;
 pub use run::telemetry;
 pub use run::timings::Seconds;

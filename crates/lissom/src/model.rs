@@ -1,4 +1,4 @@
-//! A model as text, and its documents with overrides. Independent of simulations.
+//! A model as text with overrides, and its documents. Independent of simulations.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,23 +6,79 @@ use std::sync::Arc;
 
 use lissom_model::files::{self, FileError};
 use lissom_model::lower::registry::registry;
+use lissom_model::toml_text::quoted;
 use lissom_model::{Document, Library, ModelText, Report};
 
 use crate::ids::IdNames;
 use crate::session::{Prepared, Session, SessionError};
 
-/// A path into the model file and its new value, such as `("analysis.step", "1e-4")`.
+/// A path into the model file and its new value as TOML, such as `("analysis.step", "1e-4")`.
 pub type Override = (String, String);
 
-/// The text of a model file and of the files it includes. Each is read once and may be decoded many times, with
-/// different overrides.
+/// The new value of an override: a number, a boolean, a text or a list of these.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Value(String);
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self(if number.is_nan() { "nan".to_owned() } else { format!("{number:?}") })
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self(flag.to_string())
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self(quoted(text))
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
+}
+
+impl<T: Into<Value>> From<Vec<T>> for Value {
+    fn from(list: Vec<T>) -> Self {
+        let entries: Vec<String> = list.into_iter().map(|entry| entry.into().0).collect();
+        Self(format!("[{}]", entries.join(", ")))
+    }
+}
+
+impl<T: Into<Value>, const N: usize> From<[T; N]> for Value {
+    fn from(list: [T; N]) -> Self {
+        Vec::from(list).into()
+    }
+}
+
+macro_rules! from_integers {
+    ($($integer:ty)*) => {
+        $(impl From<$integer> for Value {
+            fn from(number: $integer) -> Self {
+                Self(number.to_string())
+            }
+        })*
+    };
+}
+
+from_integers! { i32 i64 u32 u64 usize }
+
+/// The text of a model file and of the files it includes, with overrides. Texts are read once and shared by copies, which may
+/// have different overrides.
 #[derive(Clone, Debug)]
 pub struct Model {
     name: String,
-    text: String,
+    text: Arc<str>,
     library: Arc<Library>,
     /// Paths that are omitted from the text.
     left_out: Vec<String>,
+    /// Values laid over the text.
+    overrides: Vec<Override>,
     /// Names of ids, if it was built in code.
     ids: Option<Arc<IdNames>>,
 }
@@ -33,27 +89,52 @@ impl Model {
     /// # Errors
     /// If the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Ok(Self {
-            name: path.display().to_string(),
-            text: files::read_input_text(path)?,
-            library: Arc::new(Library::beside(path)),
-            left_out: Vec::new(),
-            ids: None,
-        })
+        let text = files::read_input_text(path)?;
+        Ok(Self::from_text(&path.display().to_string(), &text))
     }
 
     /// A model from a text; `name` is used in messages, and included files are searched for relative to a file of this
     /// name.
     pub fn from_text(name: &str, text: &str) -> Self {
         let library = Arc::new(Library::beside(Path::new(name)));
-        Self { name: name.to_owned(), text: text.to_owned(), library, left_out: Vec::new(), ids: None }
+        let (left_out, overrides) = (Vec::new(), Vec::new());
+        Self { name: name.to_owned(), text: text.into(), library, left_out, overrides, ids: None }
     }
 
-    /// The same without the values and entries at these paths, such as `analysis.step` or `springs.damper`. They are
-    /// omitted before overrides are applied.
-    #[must_use]
-    pub fn without(self, paths: Vec<String>) -> Self {
-        Self { left_out: paths, ..self }
+    /// The same model with a new value at a path, such as `analysis.step` or `bodies.top.mass`. A text is a name or an expression
+    /// of the model file. Errors are reported when the model is used.
+    ///
+    /// ```
+    /// # let model = lissom::Model::from_text("empty.toml", "lissom = 1");
+    /// let fine = model.with("analysis.step", 1e-4).with("analysis.scheme", "hht").with("gravity", [0.0, 0.0, -9.81]);
+    /// ```
+    pub fn with(&self, path: &str, value: impl Into<Value>) -> Self {
+        self.with_overrides(&[(path.to_owned(), value.into().0)])
+    }
+
+    /// The same model with further overrides, whose values are TOML; a value that is no TOML is a text.
+    pub fn with_overrides(&self, overrides: &[Override]) -> Self {
+        let mut model = self.clone();
+        model.overrides.extend_from_slice(overrides);
+        model
+    }
+
+    /// The same model with further overrides, which are applied before its own.
+    pub(crate) fn over(&self, overrides: &[Override]) -> Self {
+        Self { overrides: [overrides, &self.overrides].concat(), ..self.clone() }
+    }
+
+    /// The same model without the value or entry at a path, such as `analysis.step` or `springs.damper`. It is omitted before
+    /// overrides are applied.
+    pub fn without(&self, path: &str) -> Self {
+        let mut model = self.clone();
+        model.left_out.push(path.to_owned());
+        model
+    }
+
+    /// Its overrides, in the order in which they are applied.
+    pub fn overrides(&self) -> &[Override] {
+        &self.overrides
     }
 
     /// Paths that are omitted from the text.
@@ -90,13 +171,13 @@ impl Model {
         self.library.files()
     }
 
-    /// The text as a tree of values, with `overrides`.
+    /// The text as a tree of values, with the overrides.
     ///
     /// # Errors
     /// If the text is not TOML, or the path of an override does not exist.
-    pub fn model_text(&self, overrides: &[Override]) -> Result<ModelText, Report> {
+    pub fn model_text(&self) -> Result<ModelText, Report> {
         let named = (self.name.as_str(), self.left_out.as_slice());
-        ModelText::read_without(&self.text, named, overrides, Arc::clone(&self.library))
+        ModelText::read_without(&self.text, named, &self.overrides, Arc::clone(&self.library))
     }
 
     /// Path or name.
@@ -104,32 +185,32 @@ impl Model {
         &self.name
     }
 
-    /// The text.
+    /// The text, without the overrides.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The checked document, with `overrides`.
+    /// The checked document.
     ///
     /// # Errors
     /// All errors of the text or of an override.
-    pub fn document(&self, overrides: &[Override]) -> Result<Document, Report> {
-        self.model_text(overrides)?.document(&registry(), &[])
+    pub fn document(&self) -> Result<Document, Report> {
+        self.model_text()?.document(&registry(), &[])
     }
 
-    /// A session at its start, with `overrides`.
+    /// A session at its start.
     ///
     /// # Errors
     /// If the model is invalid, or has no consistent initial values.
-    pub fn session(&self, overrides: &[Override]) -> Result<Session, SessionError> {
-        Ok(self.prepare(overrides)?.session()?)
+    pub fn session(&self) -> Result<Session, SessionError> {
+        Ok(self.prepare()?.session()?)
     }
 
-    /// The model with `overrides`, prepared for many sessions that share it.
+    /// The model prepared for many sessions that share it.
     ///
     /// # Errors
     /// If the model is invalid, or its analysis has no time history.
-    pub fn prepare(&self, overrides: &[Override]) -> Result<Prepared, SessionError> {
-        Prepared::new(&self.document(overrides)?, self.ids.clone())
+    pub fn prepare(&self) -> Result<Prepared, SessionError> {
+        Prepared::new(&self.document()?, self.ids.clone())
     }
 }

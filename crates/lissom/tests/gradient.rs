@@ -11,9 +11,8 @@ use crate::support::runs::overrides;
 
 /// The measure's value of a whole run with a number changed.
 fn measured(model: &Model, column: (&str, &str), over: &str, set: &[Override]) -> f64 {
-    let mut session = model.session(set).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = model.with_overrides(set).session().unwrap();
+    let record = session.run().unwrap();
     let values = record.column(column.0, column.1).unwrap();
     match over {
         "max" => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
@@ -43,7 +42,8 @@ fn agrees(
     let model = Model::from_text("model.toml", text);
     let target: Target = of.parse().unwrap();
     let paths: Vec<String> = numbers.iter().map(|(path, _)| (*path).to_owned()).collect();
-    let found = gradient(&model, set, &target, &paths, true).unwrap_or_else(|error| panic!("{of}: {error}"));
+    let found = gradient(&model.with_overrides(set), &target, &paths, true)
+        .unwrap_or_else(|error| panic!("{of}: {error}"));
     let over = of.split_once('@').map_or("end", |(_, measure)| measure);
     for (derivative, &(path, number)) in found.derivatives.iter().zip(numbers) {
         assert_eq!((derivative.path.as_str(), derivative.number), (path, number));
@@ -150,7 +150,7 @@ fn a_bent_beam_is_differentiated() {
 fn questions_without_sense_are_refused() {
     let refuse = |of: &str, path: &str, set: &[Override]| {
         let model = Model::from_text("model.toml", SWING);
-        gradient(&model, set, &of.parse().unwrap(), &[path.to_owned()], true).unwrap_err()
+        gradient(&model.with_overrides(set), &of.parse().unwrap(), &[path.to_owned()], true).unwrap_err()
     };
     assert!(matches!(refuse("lower.q", "bodies.lower.mass", &[]), GradientError::Column { .. }));
     assert!(matches!(refuse("lower.z@7", "bodies.lower.mass", &[]), GradientError::Time { .. }));
@@ -175,7 +175,8 @@ fn agrees_closely(
 ) {
     let target: Target = of.parse().unwrap();
     let paths: Vec<String> = numbers.iter().map(|(path, ..)| (*path).to_owned()).collect();
-    let found = gradient(model, set, &target, &paths, true).unwrap_or_else(|error| panic!("{of}: {error}"));
+    let found = gradient(&model.with_overrides(set), &target, &paths, true)
+        .unwrap_or_else(|error| panic!("{of}: {error}"));
     assert!(found.derivatives.iter().all(|derivative| derivative.method == Method::Direct), "{of}");
     assert!(matches!(found.confirmation, Some(Confirmation::Confirmed { .. })), "{of}: {found:?}");
     let over = of.split_once('@').map_or("end", |(_, measure)| measure);
@@ -294,7 +295,7 @@ fn kinks_and_jumps_over_time_are_differentiated_across_or_refused() {
             for analysis in ["step = 1e-2", "step = 3e-3", "relative_tolerance = 1e-6"] {
                 let model = pushed(force, &format!("{analysis}\nscheme = \"{scheme}\""));
                 let paths = ["bodies.ball.mass", "parameters.size"].map(str::to_owned);
-                match gradient(&model, &[], &target, &paths, true) {
+                match gradient(&model, &target, &paths, true) {
                     Ok(found) => {
                         let wanted = [-size * 3.0 / 4.0, size / 2.0];
                         for (derivative, wanted) in found.derivatives.iter().zip(wanted) {
@@ -325,7 +326,7 @@ fn numbers_that_move_kinks_are_refused() {
                     let model =
                         pushed(&force.replace("PATH", path), &format!("{analysis}\nscheme = \"{scheme}\""));
                     let paths = [format!("parameters.{path}")];
-                    let error = gradient(&model, &[], &target, &paths, true).map(|_| ()).unwrap_err();
+                    let error = gradient(&model, &target, &paths, true).map(|_| ()).unwrap_err();
                     assert!(matches!(error, GradientError::KinkMoves { .. }), "{force}, {analysis}: {error}");
                     assert!(
                         matches!(error.origin(), Origin::Request)

@@ -187,7 +187,7 @@ fn what_cannot_go_on_is_reported() {
 fn a_session_goes_back_to_its_snapshot_and_repeats_itself() {
     let text = fs::read_to_string(example("four-bar")).unwrap();
     let model = lissom::Model::from_text("four-bar.toml", &text);
-    let mut session = model.session(&[]).unwrap();
+    let mut session = model.session().unwrap();
     session.step_to(0.3).unwrap();
     let snapshot = session.snapshot();
     let bytes = snapshot.to_bytes();
@@ -205,11 +205,11 @@ fn a_session_goes_back_to_its_snapshot_and_repeats_itself() {
     assert!((session.progress().time - 0.3).abs() < 1e-15);
     assert_eq!(run(&mut session), first);
     // Another session of the same model, and one of another model.
-    let mut other = model.session(&[]).unwrap();
+    let mut other = model.session().unwrap();
     other.restore(&read).unwrap();
     assert_eq!(run(&mut other), first);
     let pendulum = fs::read_to_string(example("pendulum")).unwrap();
-    let mut wrong = lissom::Model::from_text("pendulum.toml", &pendulum).session(&[]).unwrap();
+    let mut wrong = lissom::Model::from_text("pendulum.toml", &pendulum).session().unwrap();
     assert!(wrong.restore(&read).unwrap_err().to_string().contains("another model"));
     assert!(lissom::SessionSnapshot::from_bytes(&bytes[..bytes.len() / 2]).is_err());
 }

@@ -3,10 +3,9 @@
 use lissom::{Model, Record, Session};
 
 fn record(text: &str) -> (Record, Session) {
-    let document =
-        Model::from_text("model.toml", text).document(&[]).unwrap_or_else(|error| panic!("{error}"));
+    let document = Model::from_text("model.toml", text).document().unwrap_or_else(|error| panic!("{error}"));
     let mut session = Session::new(&document).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     assert!(report.error().is_none(), "{:?}", report.error());
     (record, session)
 }
@@ -67,7 +66,7 @@ fn a_linear_range_takes_few_load_steps() {
 #[test]
 fn steps_and_their_tolerance_are_not_given_together() {
     let text = rolled("steps = 4\nrelative_tolerance = 0.1");
-    let refused = Model::from_text("model.toml", &text).document(&[]).unwrap_err().render(false);
+    let refused = Model::from_text("model.toml", &text).document().unwrap_err().render(false);
     assert!(refused.contains("remove one"), "{refused}");
 }
 
@@ -201,11 +200,11 @@ fn a_run_that_starts_in_steady_rotation_keeps_its_strain() {
     let (least, most) = strain("");
     assert!(least < 0.01 * most, "{least} to {most}");
     let both = blade("steady_rotation = true\nequilibrium = true");
-    let refused = Model::from_text("model.toml", &both).document(&[]).unwrap_err().render(false);
+    let refused = Model::from_text("model.toml", &both).document().unwrap_err().render(false);
     assert!(refused.contains("not both"), "{refused}");
     let across =
         blade("steady_rotation = true").replace("lissom = 1\n", "lissom = 1\ngravity = [0, -9.81, 0]\n");
-    let document = Model::from_text("model.toml", &across).document(&[]).unwrap();
+    let document = Model::from_text("model.toml", &across).document().unwrap();
     assert!(Session::new(&document).is_err(), "gravity across the axis");
 }
 
@@ -254,9 +253,8 @@ end = 1
 step = 1e-3
 "#
     );
-    let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Model::from_text("model.toml", &text).session().unwrap();
+    let record = session.run().unwrap();
     assert_eq!(session.warnings().count(), 0, "{:?}", session.warnings().collect::<Vec<_>>());
     // The bob is a point except for its small inertia.
     let steady = (9.81 / (rate * rate * length)).acos();
@@ -285,7 +283,12 @@ torque = 1
 [analysis]
 kind = "statics"
 "#;
-    let (_, report) = Model::from_text("model.toml", text).session(&[]).unwrap().record();
+    let (_, report) = Model::from_text("model.toml", text)
+        .session()
+        .unwrap()
+        .run()
+        .unwrap_or_else(lissom::Results::from)
+        .into_parts();
     let words = format!("{report:?}");
     assert!(words.contains("it has no resistance") && !words.contains("wheel"), "{words}");
 }

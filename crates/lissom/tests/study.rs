@@ -4,10 +4,10 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use lissom::Model;
 use lissom::core::scaling::ScaleBy;
 use lissom::core::simulation::ConditionMethod;
 use lissom::study::{StudyError, conditioning, convergence, factorization, roundoff};
+use lissom::{Model, Override};
 
 /// Powers of ten between two published values.
 const FLAT: f64 = 1.2;
@@ -21,9 +21,11 @@ fn texts(words: &[&str]) -> Vec<String> {
     words.iter().map(|&word| word.to_owned()).collect()
 }
 
-fn measured(request: &conditioning::Request) -> Vec<(f64, [f64; 4])> {
-    let table =
-        conditioning::study(&example("pendulum"), request, &|_, _| ControlFlow::Continue(())).unwrap();
+fn measured(request: &conditioning::Request, set: &[Override]) -> Vec<(f64, [f64; 4])> {
+    let table = conditioning::study(&example("pendulum").with_overrides(set), request, &|_, _| {
+        ControlFlow::Continue(())
+    })
+    .unwrap();
     let row = |row: &conditioning::Row| {
         let measured = row.outcome.as_ref().unwrap();
         assert_eq!(measured.method, ConditionMethod::SingularValues);
@@ -56,7 +58,7 @@ fn column(rows: &[(f64, [f64; 4])], name: &str) -> Vec<(f64, f64)> {
 #[test]
 fn condition_numbers_over_the_step_size() {
     let steps = texts(&["1e-1", "5e-2", "1e-2", "5e-3", "1e-3", "5e-4", "1e-4", "5e-5", "1e-5"]);
-    let rows = measured(&conditioning::Request { steps, ..Default::default() });
+    let rows = measured(&conditioning::Request { steps, vary: None }, &[]);
     assert_eq!(rows.len(), 9);
     assert_exponent(&column(&rows, "none"), -4.0);
     // Far beyond what double precision sees.
@@ -68,10 +70,8 @@ fn condition_numbers_over_the_step_size() {
 /// Smallest and largest of the figures in `docs/measured.md`.
 #[test]
 fn condition_numbers_are_those_of_the_readme() {
-    let rows = measured(&conditioning::Request {
-        steps: texts(&["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]),
-        ..Default::default()
-    });
+    let steps = texts(&["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]);
+    let rows = measured(&conditioning::Request { steps, vary: None }, &[]);
     let bounds = |name: &str| {
         let values: Vec<f64> = column(&rows, name).into_iter().map(|(_, value)| value).collect();
         [f64::INFINITY, 0.0].map(|start: f64| {
@@ -95,9 +95,8 @@ fn condition_numbers_over_the_mass() {
     let request = conditioning::Request {
         steps: texts(&["0.01"]),
         vary: Some(("point_masses.bob.mass".to_owned(), values)),
-        ..Default::default()
     };
-    let rows = measured(&request);
+    let rows = measured(&request, &[]);
     assert_exponent(&column(&rows, "none"), 2.0);
     assert_exponent(&column(&rows, "unit")[3..], 2.0);
     assert_flat(&column(&rows, "physical"));
@@ -110,7 +109,7 @@ fn published_numbers_are_met_within_their_digits() {
     let overrides = [("analysis.spectral_radius", "0"), ("analysis.penalty", "0.5")]
         .map(|(a, b)| (a.to_owned(), b.to_owned()));
     let steps = texts(&["1e-1", "1e-2", "1e-4"]);
-    let rows = measured(&conditioning::Request { steps, vary: None, overrides: overrides.to_vec() });
+    let rows = measured(&conditioning::Request { steps, vary: None }, &overrides);
     let published = [[4e4, 10.0, 12.0], [3e8, 9.2, 14.0], [3e16, 9.2, 14.0]];
     for ((_, ours), published) in rows.iter().zip(published) {
         for (ours, published) in ours.iter().zip(published) {
@@ -120,10 +119,9 @@ fn published_numbers_are_met_within_their_digits() {
     let request = conditioning::Request {
         steps: texts(&["0.01"]),
         vary: Some(("point_masses.bob.mass".to_owned(), texts(&["1e-1", "1", "1e1", "1e5"]))),
-        overrides: overrides.to_vec(),
     };
     let published = [[3e6, 2e1, 13.0], [3e8, 9.0, 14.0], [3e10, 4e2, 14.0], [3e18, 3e10, 14.0]];
-    for ((_, ours), published) in measured(&request).iter().zip(published) {
+    for ((_, ours), published) in measured(&request, &overrides).iter().zip(published) {
         for (ours, published) in ours.iter().zip(published) {
             assert!((ours / published).ln().abs() < 1.5_f64.ln(), "{ours:e} for {published:e}");
         }
@@ -132,11 +130,10 @@ fn published_numbers_are_met_within_their_digits() {
 
 #[test]
 fn large_models_are_estimated_and_tables_say_so() {
-    let overrides = vec![("analysis.end".to_owned(), "1e-3".to_owned())];
+    let model = example("tip-crank").with("analysis.end", 1e-3);
     let steps = texts(&["5e-4", "1e-4"]);
-    let request = conditioning::Request { steps, vary: None, overrides };
-    let table =
-        conditioning::study(&example("tip-crank"), &request, &|_, _| ControlFlow::Continue(())).unwrap();
+    let request = conditioning::Request { steps, vary: None };
+    let table = conditioning::study(&model, &request, &|_, _| ControlFlow::Continue(())).unwrap();
     let csv = table.csv();
     assert!(csv.starts_with("step_size,none,unit,physical,equilibrated,method,end\n5e-4,"), "{csv}");
     assert_eq!(csv.lines().filter(|line| line.contains("1-norm estimate")).count(), 2);
@@ -170,8 +167,7 @@ fn what_cannot_be_studied_is_refused() {
 #[test]
 fn without_the_augmented_term_elimination_stops_at_the_massless_rotation() {
     // With the penalty of the source's order, for which pivots do not grow.
-    let penalty = ("analysis.penalty".to_owned(), "1".to_owned());
-    let table = factorization::study(&example("tip-crank"), &[penalty]).unwrap();
+    let table = factorization::study(&example("tip-crank").with("analysis.penalty", 1)).unwrap();
     assert_eq!(table.cases.len(), 24);
     for case in &table.cases {
         match (&case.outcome, case.augmented || case.solver == "pivoting") {
@@ -216,7 +212,6 @@ fn schemes_converge_with_their_orders() {
         steps: texts(&["2e-2", "1e-2", "5e-3"]),
         reference: ("radau-iia".to_owned(), "5e-4".to_owned()),
         output: "bob".to_owned(),
-        overrides: vec![],
     };
     let table =
         convergence::study(&example("pendulum"), &request, &|_, _| ControlFlow::Continue(())).unwrap();
@@ -243,7 +238,6 @@ fn a_single_component_can_be_compared() {
             steps: texts(&["2e-2", "1e-2"]),
             reference: ("radau-iia".to_owned(), "1e-3".to_owned()),
             output: output.to_owned(),
-            overrides: vec![],
         };
         convergence::study(&example("pendulum"), &request, &|_, _| ControlFlow::Continue(()))
     };
@@ -264,17 +258,17 @@ fn errors_are_relative_to_the_reference() {
         steps: texts(&["0.05"]),
         reference: ("radau-iia".to_owned(), "0.025".to_owned()),
         output: "bob".to_owned(),
-        overrides: overrides.to_vec(),
     };
     let go_on = |_: usize, _: usize| ControlFlow::Continue(());
-    let table = convergence::study(&example("pendulum"), &request, &go_on).unwrap();
+    let table =
+        convergence::study(&example("pendulum").with_overrides(&overrides), &request, &go_on).unwrap();
     assert_eq!(table.instants, 1);
     assert!((table.end - 0.35).abs() < 1e-12);
     let place = |text: &str, step: &str| {
         let set = [("analysis.end", "0.05"), ("analysis.step", step), ("analysis.tolerance", "1e-10")];
         let set = set.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        let (record, report) = Model::from_text("pendulum", text).session(&set).unwrap().record();
-        assert!(report.is_complete());
+        let record =
+            Model::from_text("pendulum", text).with_overrides(&set).session().unwrap().run().unwrap();
         ["x", "y"].map(|axis| *record.column("bob", axis).unwrap().last().unwrap())
     };
     let path = format!("{}/../../examples/pendulum.toml", env!("CARGO_MANIFEST_DIR"));
@@ -288,11 +282,7 @@ fn errors_are_relative_to_the_reference() {
 
 #[test]
 fn tiny_steps_leave_reactions_smooth() {
-    let request = roundoff::Request {
-        steps: texts(&["1e-3", "1e-5", "1e-7"]),
-        output: "force".to_owned(),
-        overrides: vec![],
-    };
+    let request = roundoff::Request { steps: texts(&["1e-3", "1e-5", "1e-7"]), output: "force".to_owned() };
     let go_on = |_: usize, _: usize| ControlFlow::Continue(());
     let table = roundoff::study(&example("pendulum"), &request, &go_on).unwrap();
     let measured: Vec<_> = table.rows.iter().map(|row| *row.outcome.as_ref().unwrap()).collect();
@@ -307,9 +297,9 @@ fn tiny_steps_leave_reactions_smooth() {
 
 /// The largest error of `output` after fifty steps.
 fn largest_round_off(model: &str, scheme: &str, output: &str, steps: &[&str]) -> f64 {
-    let overrides = vec![("analysis.scheme".to_owned(), format!("\"{scheme}\""))];
-    let request = roundoff::Request { steps: texts(steps), output: output.to_owned(), overrides };
-    let table = roundoff::study(&example(model), &request, &|_, _| ControlFlow::Continue(())).unwrap();
+    let model = example(model).with("analysis.scheme", scheme);
+    let request = roundoff::Request { steps: texts(steps), output: output.to_owned() };
+    let table = roundoff::study(&model, &request, &|_, _| ControlFlow::Continue(())).unwrap();
     table.rows.iter().map(|row| row.outcome.as_ref().unwrap().error).fold(0.0, f64::max)
 }
 
@@ -327,8 +317,8 @@ fn one_step_of_any_size_is_solved_to_round_off() {
     // Bounds are a few roundings of the largest forces: a weight, a top's gyroscopic moment, a strip's EA.
     for (model, bound) in [("pendulum", 1e-14), ("top", 2e-11), ("tip-crank", 3e-5)] {
         for step in ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"] {
-            let step = ("analysis.step".to_owned(), step.to_owned());
-            let table = factorization::study(&example(model), std::slice::from_ref(&step)).unwrap();
+            let set = [("analysis.step".to_owned(), step.to_owned())];
+            let table = factorization::study(&example(model).with_overrides(&set)).unwrap();
             let case = table
                 .cases
                 .iter()
@@ -345,9 +335,8 @@ fn one_step_of_a_tenth_of_a_second_is_solved() {
         let step = |path: &str| (path.to_owned(), "0.1".to_owned());
         let mut overrides = vec![step("analysis.step"), step("analysis.end")];
         overrides.push(("analysis.tolerance".to_owned(), "1e-13".to_owned()));
-        let mut session = example(model).session(&overrides).unwrap();
-        let (_, report) = session.record();
-        assert!(report.is_complete(), "{model}: {:?}", report.error());
+        let mut session = example(model).with_overrides(&overrides).session().unwrap();
+        let (_, report) = session.run().unwrap().into_parts();
         // The crank's beam buckles in that time: such a step is divided, down to an eighth. The top turns by 15 rad, and no
         // step may turn by more than a quarter of a turn: it is divided into 16, and longer ones are tried in between.
         let totals = &report.totals;
@@ -371,10 +360,10 @@ fn slopes_are_drawn_within_the_range_of_the_curves() {
         steps: texts(&["2e-2", "1e-2", "5e-3"]),
         reference: ("radau-iia".to_owned(), "1e-3".to_owned()),
         output: "bob".to_owned(),
-        overrides: vec![("analysis.end".to_owned(), "0.2".to_owned())],
     };
-    let table =
-        lissom::study::convergence::study(&model, &request, &|_, _| std::ops::ControlFlow::Continue(()));
+    let table = lissom::study::convergence::study(&model.with("analysis.end", 0.2), &request, &|_, _| {
+        std::ops::ControlFlow::Continue(())
+    });
     let figure = table.unwrap().figure("Pendulum");
     let names: Vec<&str> = figure.guides.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["order 2", "order 3"]);

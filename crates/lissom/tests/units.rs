@@ -18,7 +18,7 @@ fn run(scheme: &[(&str, &str)], changes: &[(&str, String)]) -> Run {
     let mut overrides: Vec<(String, String)> =
         changes.iter().map(|(path, value)| ((*path).to_owned(), value.clone())).collect();
     overrides.extend(scheme.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())));
-    let mut session = model.session(&overrides).unwrap();
+    let mut session = model.with_overrides(&overrides).session().unwrap();
     while !session.is_finished() {
         session.advance().unwrap();
     }
@@ -119,7 +119,7 @@ fn shifted(body: &str, shift: f64) -> (usize, Vec<f64>) {
         "lissom = 1\ngravity = [0, 0, -9.81]\nparameters.far = {shift:e}\n\
          analysis = {{ kind = \"dynamics\", end = 1 }}\n{body}\n"
     );
-    let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
+    let mut session = Model::from_text("model.toml", &text).session().unwrap();
     while !session.is_finished() {
         session.advance().unwrap();
     }

@@ -115,14 +115,17 @@ fn condition(
     let request = conditioning::Request {
         steps: texts(steps),
         vary: vary.map(|(path, values)| (path.to_owned(), texts(values))),
-        overrides: overrides(set),
     };
+    let set = overrides(set);
     let steps = steps.join(",");
     let varied = vary.map(|(path, values)| format!("{path}={}", values.join(",")));
     let mut options = vec![("steps", steps.as_str())];
     options.extend(varied.as_deref().map(|varied| ("vary", varied)));
-    let command = study_command("conditioning", example, &options, &request.overrides);
-    Ok((conditioning::study(&studio.example(example)?, &request, &studio.watch())?, command))
+    let command = study_command("conditioning", example, &options, &set);
+    Ok((
+        conditioning::study(&studio.example(example)?.with_overrides(&set), &request, &studio.watch())?,
+        command,
+    ))
 }
 
 fn numbers(texts: &[&str]) -> Vec<f64> {
@@ -258,9 +261,12 @@ fn buckling(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
 /// Times [s] and displacements u1, u2, u3 at mid-span [m] of a complete run, and the largest violation of a constraint [m].
 fn midspan(studio: &Studio, set: &[(&str, &str)]) -> Result<([Vec<f64>; 4], f64), BookError> {
     let fail = |reason: String| BookError::Run { example: CRANK, reason };
-    let mut session =
-        studio.example(CRANK)?.session(&overrides(set)).map_err(|error| fail(error.to_string()))?;
-    let (record, report) = session.record();
+    let mut session = studio
+        .example(CRANK)?
+        .with_overrides(&overrides(set))
+        .session()
+        .map_err(|error| fail(error.to_string()))?;
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if let Some(error) = report.error() {
         return Err(fail(error.to_string()));
     }
@@ -270,7 +276,7 @@ fn midspan(studio: &Studio, set: &[(&str, &str)]) -> Result<([Vec<f64>; 4], f64)
 
 fn elimination(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
     let command = study_command("factorization", CRANK, &[], &[]);
-    let table = factorization::study(&studio.example(CRANK)?, &[])?;
+    let table = factorization::study(&studio.example(CRANK)?)?;
     let case = |scaling: &str, augmented: bool| {
         let is_it = |case: &&Case| {
             case.solver == "skyline" && case.augmented == augmented && scaling_name(case) == scaling
@@ -340,7 +346,7 @@ pub(super) fn penalties(studio: &Studio) -> Result<Fragment, BookError> {
     for penalty in ["1", "1e-3", "1e-6", "1e-9"] {
         let set: Vec<Override> = overrides(&[("analysis.penalty", penalty)]);
         commands.push(study_command("factorization", CRANK, &[], &set));
-        let table = factorization::study(&model, &set)?;
+        let table = factorization::study(&model.with_overrides(&set))?;
         let mut line = vec![penalty.to_owned()];
         for scaling in ["none", "physical", "equilibrated"] {
             let is_it =
@@ -374,8 +380,8 @@ fn orders(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
         steps: texts(&steps),
         reference: ("radau-iia".to_owned(), "5e-6".to_owned()),
         output: "midspan.u2".to_owned(),
-        overrides: overrides(&[("analysis.end", "0.1")]),
     };
+    let set = overrides(&[("analysis.end", "0.1")]);
     let (listed, written) = (names.join(","), steps.join(","));
     let options = [
         ("schemes", listed.as_str()),
@@ -383,8 +389,9 @@ fn orders(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
         ("reference", "radau-iia:5e-6"),
         ("output", "midspan.u2"),
     ];
-    let command = study_command("convergence", CRANK, &options, &request.overrides);
-    let table = convergence::study(&studio.example(CRANK)?, &request, &studio.watch())?;
+    let command = study_command("convergence", CRANK, &options, &set);
+    let model = studio.example(CRANK)?.with_overrides(&set);
+    let table = convergence::study(&model, &request, &studio.watch())?;
     let rows = |scheme: &str| table.rows.iter().filter(move |row| row.scheme == scheme).collect::<Vec<_>>();
     let order = |scheme: &str| rows(scheme).get(1).and_then(|row| row.order).unwrap_or(f64::NAN);
     let observed: Vec<String> = names.iter().map(|name| format!("{name} {:.2}", order(name))).collect();
@@ -415,9 +422,12 @@ fn orders(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
 fn drift(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
     let set = [("analysis.step", "1e-4"), ("analysis.end", "20"), ("analysis.output_every", "1000")];
     let fail = |reason: String| BookError::Run { example: PENDULUM, reason };
-    let mut session =
-        studio.example(PENDULUM)?.session(&overrides(&set)).map_err(|error| fail(error.to_string()))?;
-    let (_, report) = session.record();
+    let mut session = studio
+        .example(PENDULUM)?
+        .with_overrides(&overrides(&set))
+        .session()
+        .map_err(|error| fail(error.to_string()))?;
+    let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if let Some(error) = report.error() {
         return Err(fail(error.to_string()));
     }

@@ -15,9 +15,9 @@ const CRANK_STEPS: [&str; 6] = ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7"];
 
 /// Table 2.1 of the source.
 pub(super) fn steps(studio: &Studio) -> Result<Fragment, BookError> {
-    let request = of_steps(&STEPS.map(|(step, _)| step), &[]);
+    let request = of_steps(&STEPS.map(|(step, _)| step));
     let mut fragment = Fragment::default();
-    let table = run(studio, "pendulum", &request, &mut fragment)?;
+    let table = run(studio, "pendulum", (&request, &[]), &mut fragment)?;
     let heading = [
         "h [s]",
         "none: table 2.1",
@@ -46,10 +46,9 @@ pub(super) fn steps(studio: &Studio) -> Result<Fragment, BookError> {
 pub(super) fn mass(studio: &Studio) -> Result<Fragment, BookError> {
     let mut masses = texts(&MASSES.map(|(mass, _)| mass));
     masses.push("1e5".to_owned());
-    let request =
-        Request { steps: texts(&["1e-2"]), vary: Some((MASS.to_owned(), masses)), overrides: Vec::new() };
+    let request = Request { steps: texts(&["1e-2"]), vary: Some((MASS.to_owned(), masses)) };
     let mut fragment = Fragment::default();
-    let table = run(studio, "pendulum", &request, &mut fragment)?;
+    let table = run(studio, "pendulum", (&request, &[]), &mut fragment)?;
     let heading = [
         "mass in table 2.2 [kg]",
         "none: table 2.2",
@@ -80,13 +79,9 @@ pub(super) fn mass(studio: &Studio) -> Result<Fragment, BookError> {
 /// The rows in which the two published tables say different things of one model, and Lissom's at both masses.
 pub(super) fn contradiction(studio: &Studio) -> Result<Fragment, BookError> {
     let masses = ["0.1", "1", "10"];
-    let request = Request {
-        steps: texts(&["1e-2"]),
-        vary: Some((MASS.to_owned(), texts(&masses))),
-        overrides: Vec::new(),
-    };
+    let request = Request { steps: texts(&["1e-2"]), vary: Some((MASS.to_owned(), texts(&masses))) };
     let mut fragment = Fragment::default();
-    let table = run(studio, "pendulum", &request, &mut fragment)?;
+    let table = run(studio, "pendulum", (&request, &[]), &mut fragment)?;
     let of = |table: &[published::Row], label: &str| {
         table.iter().find(|(name, _)| *name == label).map_or([""; 3], |(_, values)| *values)
     };
@@ -114,9 +109,9 @@ pub(super) fn contradiction(studio: &Studio) -> Result<Fragment, BookError> {
 
 /// All scalings on the tip crank.
 pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
-    let request = of_steps(&CRANK_STEPS, &[("analysis.end", "0.01")]);
+    let (request, set) = (of_steps(&CRANK_STEPS), overrides(&[("analysis.end", "0.01")]));
     let mut fragment = Fragment::default();
-    let table = run(studio, "tip-crank", &request, &mut fragment)?;
+    let table = run(studio, "tip-crank", (&request, &set), &mut fragment)?;
     let rows = table.rows.iter().map(|row| {
         let mut line = vec![row.step.clone()];
         line.extend(cells(row));
@@ -163,11 +158,12 @@ pub(super) fn limits(studio: &Studio) -> Result<Fragment, BookError> {
     let chosen = ["1e-2", "1e-3", "1e-4"];
     let mut fragment = Fragment::default();
     let model = studio.example("tip-crank")?;
+    let request = of_steps(&chosen);
     let (mut commands, mut rows) = (Vec::new(), Vec::new());
     for (name, changes) in variants {
-        let request = of_steps(&chosen, &[&[("analysis.end", "0.01")][..], &changes].concat());
-        commands.push(command("tip-crank", &request));
-        let table = study(&model, &request, &studio.watch())?;
+        let set = overrides(&[&[("analysis.end", "0.01")][..], &changes].concat());
+        commands.push(command("tip-crank", &request, &set));
+        let table = study(&model.with_overrides(&set), &request, &studio.watch())?;
         let mut line = vec![name.to_owned()];
         line.extend(table.rows.iter().map(|row| cells(row)[3].clone()));
         rows.push(line);
@@ -177,27 +173,26 @@ pub(super) fn limits(studio: &Studio) -> Result<Fragment, BookError> {
     Ok(fragment)
 }
 
-fn of_steps(steps: &[&str], set: &[(&str, &str)]) -> Request {
-    Request { steps: texts(steps), vary: None, overrides: overrides(set) }
+fn of_steps(steps: &[&str]) -> Request {
+    Request { steps: texts(steps), vary: None }
 }
 
-fn command(example: &str, request: &Request) -> String {
+fn command(example: &str, request: &Request, set: &[Override]) -> String {
     let steps = request.steps.join(",");
     let vary = request.vary.as_ref().map(|(path, values)| format!("{path}={}", values.join(",")));
     let mut options = vec![("steps", steps.as_str())];
     options.extend(vary.as_deref().map(|vary| ("vary", vary)));
-    let set: &[Override] = &request.overrides;
     study_command("conditioning", example, &options, set)
 }
 
 fn run(
     studio: &Studio,
     example: &str,
-    request: &Request,
+    (request, set): (&Request, &[Override]),
     fragment: &mut Fragment,
 ) -> Result<Table, BookError> {
-    fragment.commands(&[command(example, request)]);
-    Ok(study(&studio.example(example)?, request, &studio.watch())?)
+    fragment.commands(&[command(example, request, set)]);
+    Ok(study(&studio.example(example)?.with_overrides(set), request, &studio.watch())?)
 }
 
 /// Condition numbers by [`SCALINGS`].

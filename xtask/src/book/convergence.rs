@@ -98,8 +98,8 @@ fn run(
         steps: texts(&STEPS),
         reference: (REFERENCE.0.to_owned(), REFERENCE.1.to_owned()),
         output: output.to_owned(),
-        overrides: overrides(set),
     };
+    let set = overrides(set);
     let options = [
         ("schemes", request.schemes.join(",")),
         ("steps", request.steps.join(",")),
@@ -107,8 +107,8 @@ fn run(
         ("output", output.to_owned()),
     ];
     let options: Vec<_> = options.iter().map(|(option, value)| (*option, value.as_str())).collect();
-    let command = study_command("convergence", EXAMPLE, &options, &request.overrides);
-    Ok((command, study(&studio.example(EXAMPLE)?, &request, &studio.watch())?))
+    let command = study_command("convergence", EXAMPLE, &options, &set);
+    Ok((command, study(&studio.example(EXAMPLE)?.with_overrides(&set), &request, &studio.watch())?))
 }
 
 fn error_and_order(table: &Table, scheme: &str, step: &str) -> (String, String) {

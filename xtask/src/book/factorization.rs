@@ -13,7 +13,7 @@ const EXAMPLE: &str = "tip-crank";
 pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
     let mut fragment = Fragment::default();
     fragment.commands(&[study_command("factorization", EXAMPLE, &[], &[])]);
-    let table = study(&studio.example(EXAMPLE)?, &[])?;
+    let table = study(&studio.example(EXAMPLE)?)?;
     let heading = [
         "scaling",
         "augmented",
@@ -65,7 +65,7 @@ pub(super) fn steps(studio: &Studio) -> Result<Fragment, BookError> {
     for step in ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7"] {
         let set = overrides(&[("analysis.step", step), ("analysis.end", "0.01")]);
         commands.push(study_command("factorization", EXAMPLE, &[], &set));
-        let table = study(&model, &set)?;
+        let table = study(&model.with_overrides(&set))?;
         let mut line = vec![step.to_owned()];
         for scaling in ["none", "physical", "equilibrated"] {
             let [pivot, coordinates, multipliers, update] = sparse(&table, scaling);
@@ -104,7 +104,7 @@ pub(super) fn any_step(studio: &Studio) -> Result<Fragment, BookError> {
             if step == &steps[0] {
                 commands.push(study_command("factorization", example, &[], &set));
             }
-            row.extend(attained(&study(&model, &set)?));
+            row.extend(attained(&study(&model.with_overrides(&set))?));
         }
     }
     let mut fragment = Fragment::default();

@@ -25,12 +25,13 @@ fn one_model(
     title: &str,
 ) -> Result<Fragment, BookError> {
     let steps = ["1e-4", "1e-5", "1e-6", "1e-7", "1e-8"];
-    let request = Request { steps: texts(&steps), output: output.to_owned(), overrides: overrides(set) };
+    let request = Request { steps: texts(&steps), output: output.to_owned() };
+    let set = overrides(set);
     let mut fragment = Fragment::default();
     let options = [("steps", steps.join(",")), ("output", output.to_owned())];
     let options: Vec<_> = options.iter().map(|(option, value)| (*option, value.as_str())).collect();
-    fragment.commands(&[study_command("roundoff", example, &options, &request.overrides)]);
-    let table = study(&studio.example(example)?, &request, &studio.watch())?;
+    fragment.commands(&[study_command("roundoff", example, &options, &set)]);
+    let table = study(&studio.example(example)?.with_overrides(&set), &request, &studio.watch())?;
     let rows = table.rows.iter().map(|row| {
         let mut line = vec![row.step.clone()];
         match &row.outcome {

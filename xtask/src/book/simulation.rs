@@ -11,9 +11,9 @@ const EXAMPLE: &str = "tip-crank";
 pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
     let fail = |reason: String| BookError::Run { example: EXAMPLE, reason };
     let model = studio.example(EXAMPLE)?;
-    let title = model.document(&[]).map_err(|report| fail(report.render(false)))?.title;
-    let mut session = model.session(&[]).map_err(|error| fail(error.to_string()))?;
-    let (record, report) = session.record();
+    let title = model.document().map_err(|report| fail(report.render(false)))?.title;
+    let mut session = model.session().map_err(|error| fail(error.to_string()))?;
+    let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if let Some(error) = report.error() {
         return Err(fail(error.to_string()));
     }

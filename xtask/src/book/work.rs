@@ -276,9 +276,10 @@ impl Problem {
         for (key, value) in settings {
             set(key, value);
         }
-        let mut session = model.session(&overrides).map_err(|error| self.fail(&error.to_string()))?;
+        let mut session =
+            model.with_overrides(&overrides).session().map_err(|error| self.fail(&error.to_string()))?;
         let before = processor_time();
-        let (record, report) = session.record();
+        let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
         let busy =
             processor_time().zip(before).map_or(report.solving, |(now, then)| now.saturating_sub(then));
         if report.error().is_some() {

@@ -129,11 +129,11 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
 fn trial(case: &Case, analysis: &str, [tolerance, allowed]: [f64; 2]) -> Outcome {
     let Some(exact) = reference(case, 1.0) else { return Outcome::Unknown };
     let text = case.text(analysis);
-    let mut session = match Model::from_text("model.toml", &text).session(&[]) {
+    let mut session = match Model::from_text("model.toml", &text).session() {
         Ok(session) => session,
         Err(error) => return Outcome::Reported { error: None, words: error.to_string() },
     };
-    let (_, report) = session.record();
+    let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if !report.is_complete() {
         return Outcome::Reported { error: None, words: format!("{:?}", report.stopped) };
     }

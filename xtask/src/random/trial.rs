@@ -131,12 +131,12 @@ fn run(text: &str, way: &Way) -> Result<Ran, NotRan> {
         let overrides: Vec<Override> =
             way.set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
         let model = Model::from_text("random.toml", text);
-        let document = model.document(&overrides).map_err(|report| {
+        let document = model.with_overrides(&overrides).document().map_err(|report| {
             let problems: Vec<&str> = report.problems().map(|problem| problem.message.as_str()).collect();
             NotRan::Refused(problems.join("; "))
         })?;
         let mut session = Session::new(&document).map_err(|error| NotRan::Refused(error.to_string()))?;
-        let (record, report) = session.record();
+        let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
         if let Some(error) = report.error() {
             return Err(NotRan::Failed(format!("at {:.4} s: {error}", report.time)));
         }

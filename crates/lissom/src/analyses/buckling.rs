@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use crate::analyses::modes::shapes_table;
 use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// First step of the load factor towards one, and maximum number of steps.
 const FIRST: f64 = 0.25;
@@ -51,8 +51,8 @@ impl Analysis for BucklingRequest {
     type Report = BucklingReport;
     type Error = BucklingRunError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<BucklingReport, BucklingRunError> {
-        buckling(model, overrides, self.count)
+    fn compute(&self, model: &Model) -> Result<BucklingReport, BucklingRunError> {
+        buckling(model, self.count)
     }
 }
 
@@ -104,16 +104,12 @@ pub struct BucklingReport {
     pub warnings: Vec<AnalysisWarning>,
 }
 
-/// The lowest load factors at which `model` with `overrides` buckles: `count` of them, or as many as the model requests.
+/// The lowest load factors at which `model` buckles: `count` of them, or as many as the model requests.
 ///
 /// # Errors
 /// If the model is invalid, its loads are already critical, or load factors were missed.
-pub fn buckling(
-    model: &Model,
-    overrides: &[Override],
-    count: Option<usize>,
-) -> Result<BucklingReport, BucklingRunError> {
-    let document = model.document(overrides)?;
+pub fn buckling(model: &Model, count: Option<usize>) -> Result<BucklingReport, BucklingRunError> {
+    let document = model.document()?;
     let own = match document.analysis.kind {
         AnalysisKind::Buckling { count } => count,
         _ => DEFAULT_BUCKLING_COUNT,

@@ -18,7 +18,7 @@ use crate::analyses::ports::{self, Input, Observed};
 use crate::analyses::response::FrequencyError;
 use crate::analysis::{Analysis, AnalysisReport};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::session::Session;
 
 /// Write the matrices of the model linearised about a state.
@@ -66,8 +66,8 @@ impl Analysis for LinearizeRequest {
     type Report = LinearizeReport;
     type Error = FrequencyError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<LinearizeReport, FrequencyError> {
-        linearize(model, overrides, self)
+    fn compute(&self, model: &Model) -> Result<LinearizeReport, FrequencyError> {
+        linearize(model, self)
     }
 }
 
@@ -90,16 +90,12 @@ pub struct LinearizeReport {
     pub warnings: Vec<AnalysisWarning>,
 }
 
-/// Linearises `model` with `overrides`.
+/// Linearises `model`.
 ///
 /// # Errors
 /// If the request is invalid for the model, or the state cannot be reached.
-pub fn linearize(
-    model: &Model,
-    overrides: &[Override],
-    request: &LinearizeRequest,
-) -> Result<LinearizeReport, FrequencyError> {
-    let document = model.document(overrides).map_err(FrequencyError::Model)?;
+pub fn linearize(model: &Model, request: &LinearizeRequest) -> Result<LinearizeReport, FrequencyError> {
+    let document = model.document().map_err(FrequencyError::Model)?;
     let mut report = request.about.linearized(&document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(&document, &reached, &request.inputs)?;
         let outputs = ports::outputs(&reached, &request.outputs)?;

@@ -12,4 +12,4 @@ pub mod reduce;
 mod registry;
 pub mod response;
 
-pub use registry::{ANALYSES, Outcome, Registered, Results};
+pub use registry::{ANALYSES, Outcome, Registered, ResultFiles};

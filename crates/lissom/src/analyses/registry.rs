@@ -14,7 +14,7 @@ use crate::analyses::reduce::ReduceRequest;
 use crate::analyses::response::ResponseRequest;
 use crate::analysis::{self, Analysis, AnalysisError, AnalysisReport};
 use crate::diagnostic::with_code;
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// All analyses. On the command line each is also a line of `commands`.
 pub const ANALYSES: &[Registered] = &[
@@ -28,7 +28,7 @@ pub const ANALYSES: &[Registered] = &[
 ];
 
 /// Files of a result, or the reason for their absence.
-pub type Outcome = Result<Results, Box<dyn AnalysisError>>;
+pub type Outcome = Result<ResultFiles, Box<dyn AnalysisError>>;
 
 /// An analysis in the registry.
 #[derive(Clone, Copy, Debug)]
@@ -36,12 +36,12 @@ pub struct Registered {
     /// Its name.
     pub name: &'static str,
     /// Computes it for a request as a TOML value.
-    pub compute: fn(&Model, &[Override], &str) -> Outcome,
+    pub compute: fn(&Model, &str) -> Outcome,
 }
 
 /// The files of a result, as texts.
 #[derive(Clone, Debug)]
-pub struct Results {
+pub struct ResultFiles {
     /// Names and texts of the tables.
     pub tables: Vec<(String, String)>,
     /// The contents of `summary.json`.
@@ -50,18 +50,12 @@ pub struct Results {
     pub warnings: Vec<String>,
 }
 
-impl Results {
-    /// The files of a report on a model of this name.
-    pub fn of<A: Analysis>(
-        report: &A::Report,
-        wall: Duration,
-        name: &str,
-        overrides: &[Override],
-        document: &Document,
-    ) -> Self {
+impl ResultFiles {
+    /// The files of a report on a model.
+    pub fn of<A: Analysis>(report: &A::Report, wall: Duration, model: &Model, document: &Document) -> Self {
         Self {
             tables: report.tables(),
-            summary: analysis::summary::<A>(report, wall, name, overrides, document),
+            summary: analysis::summary::<A>(report, wall, model, document),
             warnings: report.warnings().iter().map(with_code).collect(),
         }
     }
@@ -77,10 +71,10 @@ fn boxed(error: impl AnalysisError + 'static) -> Box<dyn AnalysisError> {
     Box::new(error)
 }
 
-fn compute<A: Analysis>(model: &Model, overrides: &[Override], request: &str) -> Outcome {
+fn compute<A: Analysis>(model: &Model, request: &str) -> Outcome {
     let request: A = analysis::request(request).map_err(boxed)?;
     let began = Instant::now();
-    let report = request.compute(model, overrides).map_err(boxed)?;
-    let document = model.document(overrides).map_err(boxed)?;
-    Ok(Results::of::<A>(&report, began.elapsed(), model.name(), overrides, &document))
+    let report = request.compute(model).map_err(boxed)?;
+    let document = model.document().map_err(boxed)?;
+    Ok(ResultFiles::of::<A>(&report, began.elapsed(), model, &document))
 }

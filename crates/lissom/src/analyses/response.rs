@@ -18,7 +18,7 @@ use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::analyses::ports::{self, Input, Observed, PortError};
 use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Default number of frequencies.
 pub const DEFAULT_POINTS: usize = 400;
@@ -96,8 +96,8 @@ impl Analysis for ResponseRequest {
     type Report = ResponseReport;
     type Error = FrequencyError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<ResponseReport, FrequencyError> {
-        response(model, overrides, self)
+    fn compute(&self, model: &Model) -> Result<ResponseReport, FrequencyError> {
+        response(model, self)
     }
 }
 
@@ -189,20 +189,16 @@ pub struct ResponseReport {
     pub warnings: Vec<AnalysisWarning>,
 }
 
-/// Frequency response of `model` with `overrides`.
+/// Frequency response of `model`.
 ///
 /// # Errors
 /// If the request is invalid for the model, the state cannot be reached, or a solve fails.
-pub fn response(
-    model: &Model,
-    overrides: &[Override],
-    request: &ResponseRequest,
-) -> Result<ResponseReport, FrequencyError> {
+pub fn response(model: &Model, request: &ResponseRequest) -> Result<ResponseReport, FrequencyError> {
     let &ResponseRequest { from, to, .. } = request;
     if !(from > 0.0 && to > from && to.is_finite()) {
         return Err(FrequencyError::Range { from, to });
     }
-    let document = model.document(overrides).map_err(FrequencyError::Model)?;
+    let document = model.document().map_err(FrequencyError::Model)?;
     let mut report = request.about.linearized(&document, |reached| of_state(&document, reached, request))?;
     report.about = request.about.name();
     Ok(report)

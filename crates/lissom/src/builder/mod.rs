@@ -222,7 +222,7 @@ impl ModelBuilder {
     /// All its mistakes, as for a model file.
     pub fn build(&self) -> Result<Model, Report> {
         let model = Model::from_text(self.source(), &self.to_toml()?).with_ids(self.names.clone());
-        model.document(&[])?;
+        model.document()?;
         Ok(model)
     }
 }

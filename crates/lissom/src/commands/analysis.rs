@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 use lissom::analysis::{self, Analysis, AnalysisError, AnalysisReport, Origin};
-use lissom::{Document, FolderError, Model, Override, ResultFolder, summary};
+use lissom::{Document, FolderError, Model, ResultFolder, summary};
 use lissom_core::number::duration;
 
 use super::model_arguments::ModelArguments;
@@ -34,20 +34,20 @@ impl<A: Analysis + Args> AnalysisCommand<A> {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
         let folder = self.model.folder(self.out, A::FOLDER);
-        report((&model, &self.model.set, &document), &self.request, &folder, self.quiet)
+        report((&model, &document), &self.request, &folder, self.quiet)
     }
 }
 
 /// Computes an analysis and writes its results to a folder.
 pub(super) fn report<A: Analysis>(
-    (model, overrides, document): (&Model, &[Override], &Document),
+    (model, document): (&Model, &Document),
     request: &A,
     path: &Path,
     quiet: bool,
 ) -> Result<Exit, Failure> {
     show_warnings(document);
     let began = Instant::now();
-    let found = request.compute(model, overrides);
+    let found = request.compute(model);
     let wall = began.elapsed();
     match found.as_ref().map_err(|error| (error.origin(), error)) {
         Err((Origin::Model(report), _)) => return Err(report.clone().into()),
@@ -58,7 +58,7 @@ pub(super) fn report<A: Analysis>(
     let folder = ResultFolder::create(path).map_err(unwritable)?;
     folder.clear().map_err(unwritable)?;
     let found = found.or_else(|error| {
-        let mut summary = summary::of_request(A::NAME, model.name(), overrides, document);
+        let mut summary = summary::of_request(A::NAME, model, document);
         summary::of_failure(&mut summary, &error);
         folder.write_summary(&summary).map_err(unwritable)?;
         Err(Failure::new(Exit::Failed, &error))
@@ -72,7 +72,7 @@ pub(super) fn report<A: Analysis>(
         drawn.and_then(|drawn| ResultFolder::write_graphic(path, &drawn)).map_err(unwritable)?;
     }
     found.write_more(&folder, document).map_err(|error| Failure::new(Exit::Failed, &error))?;
-    let summary = analysis::summary::<A>(&found, wall, model.name(), overrides, document);
+    let summary = analysis::summary::<A>(&found, wall, model, document);
     folder.write_summary(&summary).map_err(unwritable)?;
     if !quiet {
         for warning in found.warnings() {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::Args;
 use lissom::path::varied_number;
 use lissom::start::{Lowered, lower};
-use lissom::{AnalysisWarning, Document, Model, Report, Session};
+use lissom::{AnalysisWarning, Document, Report, Session};
 use lissom_core::consistent::mobility::mobility;
 use lissom_core::consistent::{Mobility, Redundant};
 use lissom_core::errors::Warning;
@@ -45,7 +45,7 @@ impl Check {
         show_warnings(&document);
         check_run(&document)?;
         let lowered = lower(&document)?;
-        varied_number(&model, &self.model.set, &document)?;
+        varied_number(&model, &document)?;
         let freedom = mobility(&lowered.system, &lowered.state);
         terminal::print(&render(model.name(), &document, &lowered, &freedom));
         for redundant in &freedom.redundant {
@@ -69,10 +69,9 @@ impl Check {
 
     /// Facts about the model, and whether it can be run.
     fn facts(&self) -> Result<(Value, Exit), Failure> {
-        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let model = model.without(self.model.unset.clone());
+        let model = self.model.text()?;
         let wrong = |report: &Report| (json!({ "ok": false, "problems": report.to_value() }), Exit::BadModel);
-        let document = match model.document(&self.model.set) {
+        let document = match model.document() {
             Ok(document) => document,
             Err(report) => return Ok(wrong(&report)),
         };
@@ -80,7 +79,7 @@ impl Check {
             Ok(lowered) => lowered,
             Err(report) => return Ok(wrong(&report)),
         };
-        if let Err(report) = varied_number(&model, &self.model.set, &document) {
+        if let Err(report) = varied_number(&model, &document) {
             return Ok(wrong(&report));
         }
         let freedom = mobility(&lowered.system, &lowered.state);

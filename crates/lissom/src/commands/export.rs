@@ -6,9 +6,10 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use lissom::export::{ExportError, FORMATS, Format};
 use lissom::import::{from_model, to_urdf};
-use lissom::{Model, Override, ResultFolder};
+use lissom::{Override, ResultFolder};
 use lissom_model::files;
 
+use super::model_arguments;
 use super::outcome::{Exit, Failure};
 use super::terminal;
 
@@ -94,8 +95,8 @@ impl Export {
 
     /// Writes a model as a robot description.
     fn describe(self) -> Result<Exit, Failure> {
-        let model = Model::read(&self.folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let document = model.document(&self.set)?;
+        let model = model_arguments::read(&self.folder, &self.set, &[])?;
+        let document = model.document()?;
         let refused =
             |words: String| Failure::request(format!("`{}` as URDF: {words}", self.folder.display()));
         let found = from_model(&document).map_err(|error| refused(error.to_string()))?;

@@ -47,7 +47,7 @@ impl Fmu {
         let bytes = lissom_model::files::read_input(&library).map_err(|error| {
             Failure::new(Exit::BadModel, &files::failure(files::Action::Read, &library, error))
         })?;
-        let unit = export(&model, &self.model.set, &bytes).map_err(|error| match error {
+        let unit = export(&model, &bytes).map_err(|error| match error {
             FmuError::Model(report) => report.into(),
             FmuError::Archive(_) => Failure::new(Exit::Failed, &error),
             other => Failure::new(Exit::BadModel, &other),

@@ -85,7 +85,7 @@ impl Import {
         };
         let model = model_text(&robot, &pose, options).map_err(|error| bad(error.diagnostic()))?;
         // A model without a consistent initial state is not written.
-        match Model::from_text(&out.display().to_string(), &model).session(&[]) {
+        match Model::from_text(&out.display().to_string(), &model).session() {
             Ok(_) => {}
             Err(SessionError::Model(report)) => return Err(report.into()),
             Err(error) => return Err(bad(error.diagnostic())),

@@ -5,10 +5,11 @@ use std::path::Path;
 use lissom::motion::MotionRecorder;
 use lissom::start::{lower, warnings_of};
 use lissom::view::Notice;
-use lissom::{Model, Override, Session};
+use lissom::{Override, Session};
 use lissom_model::document::AnalysisKind;
 use lissom_model::scene::Scene;
 
+use super::model_arguments;
 use super::outcome::{Exit, Failure, show_warnings};
 use super::results::writing_failed;
 
@@ -29,8 +30,8 @@ pub(super) struct InitialScene {
 impl InitialScene {
     /// Reads a model and computes its initial state.
     pub(super) fn of(path: &Path, set: &[Override], quiet: bool) -> Result<Self, Failure> {
-        let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let document = model.document(set)?;
+        let model = model_arguments::read(path, set, &[])?;
+        let document = model.document()?;
         if !quiet {
             show_warnings(&document);
         }
@@ -56,8 +57,8 @@ impl InitialScene {
 
 /// Rejects buckling analyses, which have a table of their own and no motion.
 pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result<(), Failure> {
-    let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-    let kind = model.document(set)?.analysis.kind;
+    let model = model_arguments::read(path, set, &[])?;
+    let kind = model.document()?.analysis.kind;
     match kind {
         AnalysisKind::Dynamics { .. }
         | AnalysisKind::Statics { .. }

@@ -24,16 +24,15 @@ pub(super) struct ModelArguments {
 }
 
 impl ModelArguments {
-    /// The text, without what is removed from it.
+    /// The model, with its overrides.
     pub(super) fn text(&self) -> Result<Model, Failure> {
-        let model = Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        Ok(model.without(self.unset.clone()))
+        read(&self.model, &self.set, &self.unset)
     }
 
-    /// The text and the checked document.
+    /// The model and the checked document.
     pub(super) fn read(&self) -> Result<(Model, Document), Failure> {
         let model = self.text()?;
-        let document = model.document(&self.set)?;
+        let document = model.document()?;
         Ok((model, document))
     }
 
@@ -42,6 +41,13 @@ impl ModelArguments {
         let stem = self.model.file_stem().unwrap_or_default().to_string_lossy();
         given.unwrap_or_else(|| Path::new("out").join(format!("{stem}-{of}")))
     }
+}
+
+/// The model in a file, with overrides and without what is removed from it.
+pub(super) fn read(path: &Path, set: &[Override], unset: &[String]) -> Result<Model, Failure> {
+    let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+    let model = unset.iter().fold(model, |model, path| model.without(path));
+    Ok(model.with_overrides(set))
 }
 
 pub(super) fn parse_override(text: &str) -> Result<Override, String> {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
-use lissom::{Diagnose, Document, FolderError, Model, Override, ResultFolder, Writer};
+use lissom::{Diagnose, Document, FolderError, Model, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
 
 use super::outcome::{Exit, Failure, show_warnings, warn};
@@ -21,14 +21,14 @@ pub(super) struct Wanted<'a> {
 
 /// Computes an equilibrium path and writes its results to a folder.
 pub(super) fn run(
-    (model, overrides, document): (&Model, &[Override], &Document),
+    (model, document): (&Model, &Document),
     wanted: &Wanted<'_>,
     interrupt: &Interrupt,
 ) -> Result<Exit, Failure> {
     show_warnings(document);
     let unwritable = |error: FolderError| Failure::new(Exit::Failed, &error);
-    let mut summary = of_request(model.name(), overrides, document);
-    let started = match PathSession::new(model, overrides) {
+    let mut summary = of_request(model, document);
+    let started = match PathSession::new(model) {
         Err(PathSessionError::Model(report)) => return Err(report.into()),
         other => other,
     };

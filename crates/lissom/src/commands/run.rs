@@ -86,7 +86,6 @@ pub(super) struct Run {
 /// The data of a new or resumed run.
 struct Task {
     model: Model,
-    overrides: Vec<Override>,
     folder: PathBuf,
     plots: bool,
     every: Option<String>,
@@ -113,8 +112,8 @@ impl Run {
         let began = Instant::now();
         let interrupt = Interrupt::listen();
         let task = self.task()?;
-        let document = task.model.document(&task.overrides)?;
-        let asked = (&task.model, &task.overrides[..], &document);
+        let document = task.model.document()?;
+        let asked = (&task.model, &document);
         match document.analysis.kind {
             AnalysisKind::Modes { .. } => {
                 let request = ModeRequest { no_plots: !task.plots, ..ModeRequest::default() };
@@ -187,7 +186,7 @@ impl Run {
                 let goes_on = task.resumed.is_some();
                 session.run_with_checkpoints(&mut writers, &mut watch, &mut checkpoints, goes_on)
             }
-            None => session.run(&mut writers, &mut watch),
+            None => session.run_with(&mut writers, &mut watch),
         };
         bar.clear();
         let title = document.title.as_deref().unwrap_or_default();
@@ -217,11 +216,11 @@ impl Run {
         if let Some(folder) = &self.resume {
             let checkpoint =
                 Checkpoint::read(folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+            let model = Model::from_text(&checkpoint.model, &checkpoint.text)
+                .with_included(checkpoint.included.clone())
+                .with_overrides(&checkpoint.overrides);
             return Ok(Task {
-                model: Model::from_text(&checkpoint.model, &checkpoint.text)
-                    .with_included(checkpoint.included.clone())
-                    .without(checkpoint.left_out.clone()),
-                overrides: checkpoint.overrides.clone(),
+                model: checkpoint.left_out.iter().fold(model, |model, path| model.without(path)),
                 folder: folder.clone(),
                 plots: checkpoint.plots && !self.no_plots,
                 every: Some(checkpoint.every.clone()),
@@ -229,12 +228,11 @@ impl Run {
             });
         }
         let path = self.model.as_deref().unwrap_or(Path::new(""));
-        let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let model = model.without(self.unset.clone());
+        let model = super::model_arguments::read(path, &self.set, &self.unset)?;
         let stem = path.file_stem().unwrap_or_default();
         let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
-        let (overrides, every) = (self.set.clone(), self.checkpoint_every.clone());
-        Ok(Task { model, overrides, folder, plots: !self.no_plots, every, resumed: None })
+        let every = self.checkpoint_every.clone();
+        Ok(Task { model, folder, plots: !self.no_plots, every, resumed: None })
     }
 
     fn keep(
@@ -318,7 +316,7 @@ impl Task {
 
     /// Summary data known before the first step.
     fn summary(&self, document: &Document, lowered: &Lowered) -> Summary {
-        let mut summary = summary::of_model(self.model.name(), &self.overrides, document, lowered);
+        let mut summary = summary::of_model(&self.model, document, lowered);
         summary::of_left_out(&mut summary, &self.model);
         summary
     }
@@ -329,7 +327,7 @@ impl Task {
         let parsed = every.parse().ok()?;
         let (model, text) = (self.model.name().to_owned(), self.model.text().to_owned());
         let included = self.model.included();
-        let (overrides, plots) = (self.overrides.clone(), self.plots);
+        let (overrides, plots) = (self.model.overrides().to_vec(), self.plots);
         let left_out = self.model.left_out().to_vec();
         let frame = move |session, [history_length, motion_length]: [u64; 2]| Checkpoint {
             model: model.clone(),

@@ -162,7 +162,7 @@ impl SweepCommand {
         };
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let model = Model::read(&folder.join(model)).map_err(unreadable)?;
-        Ok(Sweep::new(&model, file, &self.set)?)
+        Ok(Sweep::new(&model.with_overrides(&self.set), file)?)
     }
 
     /// A progress bar of members with the remaining time; none in a pipe.

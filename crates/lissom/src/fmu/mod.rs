@@ -95,25 +95,26 @@ pub struct PackedModel {
 }
 
 impl PackedModel {
-    /// A model with `overrides`.
+    /// A model.
     ///
     /// # Errors
     /// If the model is invalid.
-    pub fn of(model: &Model, overrides: &[Override]) -> Result<Self, Report> {
+    pub fn of(model: &Model) -> Result<Self, Report> {
         // The files are read when the document is built.
-        lower(&model.document(overrides)?)?;
+        lower(&model.document()?)?;
         Ok(Self {
             version: crate::VERSION.to_owned(),
             name: model.name().to_owned(),
             text: model.text().to_owned(),
-            overrides: overrides.to_vec(),
+            overrides: model.overrides().to_vec(),
             included: model.included(),
         })
     }
 
     /// The model.
     pub fn model(&self) -> Model {
-        Model::from_text(&self.name, &self.text).with_included(self.included.clone())
+        let model = Model::from_text(&self.name, &self.text).with_included(self.included.clone());
+        model.with_overrides(&self.overrides)
     }
 
     /// As the text of a JSON object.
@@ -136,18 +137,18 @@ impl PackedModel {
 }
 
 impl Interface {
-    /// The interface of a unit of `model` with `overrides`.
+    /// The interface of a unit of `model`.
     ///
     /// # Errors
     /// If the model is invalid, has no time history, or two variables would have the same name.
-    pub fn of(model: &Model, overrides: &[Override]) -> Result<Self, FmuError> {
-        let document = model.document(overrides)?;
+    pub fn of(model: &Model) -> Result<Self, FmuError> {
+        let document = model.document()?;
         let step = match &document.analysis.kind {
             AnalysisKind::Dynamics { step, control } => control.is_none().then_some(step.value),
             AnalysisKind::Statics { .. } => None,
             other => return Err(FmuError::NotInTime(other.name())),
         };
-        let variables = variables(model, overrides, &document)?;
+        let variables = variables(model, &document)?;
         let mut names: Vec<&str> = variables.iter().map(|variable| variable.name.as_str()).collect();
         names.sort_unstable();
         if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -158,7 +159,7 @@ impl Interface {
     }
 }
 
-fn variables(model: &Model, overrides: &[Override], document: &Document) -> Result<Vec<Variable>, FmuError> {
+fn variables(model: &Model, document: &Document) -> Result<Vec<Variable>, FmuError> {
     let plain = |name: &str, causality, start| Variable {
         name: name.to_owned(),
         causality,
@@ -169,7 +170,7 @@ fn variables(model: &Model, overrides: &[Override], document: &Document) -> Resu
     let time = Variable { unit: "s".to_owned(), ..plain("time", Causality::Independent, None) };
     let inputs =
         document.inputs.iter().map(|(name, start)| plain(&name.value, Causality::Input, Some(*start)));
-    let parameters = written_numbers(model.text(), overrides, "parameters")
+    let parameters = written_numbers(model.text(), model.overrides(), "parameters")
         .into_iter()
         .map(|(name, value)| plain(&format!("parameters.{name}"), Causality::Parameter, Some(value)));
     let lowered = lower(document)?;
@@ -189,9 +190,9 @@ fn variables(model: &Model, overrides: &[Override], document: &Document) -> Resu
 ///
 /// # Errors
 /// If the model is invalid or cannot become a unit.
-pub fn export(model: &Model, overrides: &[Override], library: &[u8]) -> Result<Vec<u8>, FmuError> {
-    let packed = PackedModel::of(model, overrides)?;
-    let interface = Interface::of(model, overrides)?;
+pub fn export(model: &Model, library: &[u8]) -> Result<Vec<u8>, FmuError> {
+    let packed = PackedModel::of(model)?;
+    let interface = Interface::of(model)?;
     let description = description::xml(&packed, &interface);
     let binary = format!("binaries/{}/{LIBRARY}{}", platform(), std::env::consts::DLL_SUFFIX);
     let (resource, text) = (format!("resources/{MODEL_FILE}"), packed.to_json());

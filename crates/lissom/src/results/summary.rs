@@ -15,7 +15,7 @@ use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
 use crate::diagnostic::{self, with_code};
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::run::report::RunReport;
 use crate::session::{Session, columns};
 
@@ -24,14 +24,14 @@ pub(crate) fn insert(summary: &mut Summary, name: &str, fact: Value) {
 }
 
 /// Contents for an analysis without time steps before it has a result: it is reported as failed until then.
-pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: &Document) -> Summary {
+pub fn of_request(analysis: &str, model: &Model, document: &Document) -> Summary {
     let mut summary = Summary::new();
     let mut insert = |name: &str, fact: Value| insert(&mut summary, name, fact);
-    insert("model", json!(name));
+    insert("model", json!(model.name()));
     insert("title", json!(document.title));
     insert("version", json!(crate::VERSION));
     insert("analysis", json!(analysis));
-    insert("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    insert("set", of_overrides(model));
     insert("stopped", json!("failed"));
     if document.assembly.is_some()
         && let Ok(Lowered { assembly: Some(assembly), .. }) = lower(document)
@@ -40,6 +40,11 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
     }
     add_warnings_of_model(&mut summary, document);
     summary
+}
+
+/// Paths and values of the overrides.
+fn of_overrides(model: &Model) -> Value {
+    model.overrides().iter().map(|(path, value)| (path.clone(), json!(value))).collect()
 }
 
 /// Paths that were omitted from the model's text, if any.
@@ -51,16 +56,16 @@ pub fn of_left_out(summary: &mut Summary, model: &Model) {
 
 /// Contents that are known before the first step. A run that cannot start is reported as failed, with `steps` zero;
 /// [`of_run`] replaces this.
-pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered: &Lowered) -> Summary {
+pub fn of_model(model: &Model, document: &Document, lowered: &Lowered) -> Summary {
     let Lowered { system, settings, plan, channels, .. } = lowered;
     let layout = system.layout();
     let multipliers = layout.multiplier_rows().len();
     let mut summary = Summary::new();
     let mut insert = |name: &str, fact: Value| insert(&mut summary, name, fact);
-    insert("model", json!(name));
+    insert("model", json!(model.name()));
     insert("title", json!(document.title));
     insert("version", json!(crate::VERSION));
-    insert("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    insert("set", of_overrides(model));
     insert("stopped", json!("failed"));
     insert("time", json!(plan.start));
     insert("start", json!(plan.start));

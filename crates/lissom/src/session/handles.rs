@@ -43,14 +43,19 @@ impl Session {
         self.simulation.state()
     }
 
-    /// The present components of an output, in the order of its columns [SI].
+    /// The present components of an output, in the order of its columns [SI]. They are stored in the session until the next
+    /// call, which does not allocate.
     ///
     /// # Errors
     /// If the output belongs to another model.
-    pub fn output(&self, output: OutputId) -> Result<Vec<f64>, ReadError> {
+    pub fn output(&mut self, output: OutputId) -> Result<&[f64], ReadError> {
+        let mut values = std::mem::take(&mut self.read);
+        values.clear();
         let name = self.ids()?.name(output)?;
         let channel = self.observed.channels().iter().find(|channel| channel.name == name);
-        Ok(self.values_of(channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?))
+        self.values_of(channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?, &mut values);
+        self.read = values;
+        Ok(&self.read)
     }
 
     /// Indices of the components of an output in the [`columns`](Self::columns) and in records.
@@ -102,6 +107,7 @@ impl Session {
             timings: Timings::new(),
             scale: self.scale,
             telemetry: self.telemetry.clone(),
+            read: Vec::new(),
             state_writers: Vec::new(),
             warnings: self.warnings.clone(),
             ids: self.ids.clone(),

@@ -33,6 +33,7 @@ use lissom_model::{Document, Report, component_position};
 
 use crate::ids::IdNames;
 use crate::run::report::{EnergyChange, RunError, RunReport, Stopped};
+use crate::run::results::{IncompleteRun, Results};
 use crate::run::schedule::{Due, Next, Schedule};
 use crate::run::state_writer::StateWriter;
 use crate::run::telemetry::Telemetry;
@@ -89,6 +90,8 @@ pub struct Session {
     timings: Timings,
     scale: f64,
     telemetry: Telemetry,
+    /// Values of the output that was read last.
+    read: Vec<f64>,
     /// Room for a state within a step.
     between: Box<State>,
     state_writers: Vec<Box<dyn StateWriter>>,
@@ -164,6 +167,7 @@ impl Session {
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             telemetry: Telemetry::default(),
+            read: Vec::new(),
             between: Box::new(simulation.state().clone()),
             state_writers: Vec::new(),
             simulation,
@@ -268,9 +272,9 @@ impl Session {
         self.observed.values(self.simulation.state(), self.simulation.step_of_rates(), out);
     }
 
-    /// The present values of one channel.
-    fn values_of(&self, channel: &Channel) -> Vec<f64> {
-        self.observed.values_of(channel, self.simulation.state(), self.simulation.step_of_rates())
+    /// Appends the present values of one channel.
+    fn values_of(&self, channel: &Channel, out: &mut Vec<f64>) {
+        self.observed.values_of(channel, self.simulation.state(), self.simulation.step_of_rates(), out);
     }
 
     /// The present value of a column, counted from 0; NaN if there is none.
@@ -292,7 +296,9 @@ impl Session {
         let (owner, component) = name.rsplit_once('.')?;
         let channel = self.observed.channels().iter().find(|channel| channel.name == owner)?;
         let index = component_position(channel.components.iter().map(String::as_str), component)?;
-        self.values_of(channel).get(index).copied()
+        let mut values = Vec::with_capacity(channel.components.len());
+        self.values_of(channel, &mut values);
+        values.get(index).copied()
     }
 
     /// Sets an input from now on, until it is set again.
@@ -458,10 +464,21 @@ impl Session {
         self.simulation.condition_estimate().map(|condition| condition.value)
     }
 
+    /// Runs to the end and stores the results in memory.
+    ///
+    /// # Errors
+    /// If a step has no solution, or the run was cancelled: the error contains the results so far.
+    pub fn run(&mut self) -> Result<Results, IncompleteRun> {
+        let mut record = Record::default();
+        let report = self.run_with(&mut [&mut record], &mut |_| ControlFlow::Continue(()));
+        let warnings = self.warnings().cloned().collect();
+        Results::of(record, report, warnings)
+    }
+
     /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and at the
     /// end of the last step, for whatever reason it is the last. `watch` decides after every step whether to
     /// continue.
-    pub fn run(
+    pub fn run_with(
         &mut self,
         writers: &mut [&mut dyn Writer],
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
@@ -469,7 +486,7 @@ impl Session {
         self.run_with_checkpoints(writers, watch, &mut NoCheckpoints, false)
     }
 
-    /// Runs to the end as [`run`](Self::run) does, and calls `checkpoints` after every step. With `goes_on` the writers
+    /// Runs to the end as [`run_with`](Self::run_with) does, and calls `checkpoints` after every step. With `goes_on` the writers
     /// already contain the rows up to the present state.
     pub fn run_with_checkpoints(
         &mut self,
@@ -505,13 +522,6 @@ impl Session {
             energy: self.tally.energy,
             conditions: [self.telemetry.first_condition(), self.condition_estimate()],
         }
-    }
-
-    /// Runs to the end and stores the results in memory.
-    pub fn record(&mut self) -> (Record, RunReport) {
-        let mut record = Record::default();
-        let report = self.run(&mut [&mut record], &mut |_| ControlFlow::Continue(()));
-        (record, report)
     }
 
     fn steps(

@@ -35,13 +35,11 @@ impl Observed {
         });
     }
 
-    /// The values of one channel.
-    pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64) -> Vec<f64> {
-        let mut values = Vec::new();
+    /// Appends the values of one channel.
+    pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64, out: &mut Vec<f64>) {
         self.with_recovered(channel.need(), state, step, |recovered| {
-            self.evaluate(channel, (state, recovered), &mut values);
+            self.evaluate(channel, (state, recovered), out);
         });
-        values
     }
 
     /// The value of a column, counted over all channels.

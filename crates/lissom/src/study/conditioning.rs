@@ -7,8 +7,9 @@ use lissom_core::simulation::{ConditionMethod, Simulation};
 use lissom_model::output::LogFigure;
 
 use super::members::{Effort, in_parallel};
+use super::observed::with_step;
 use super::{StudyError, Watch, csv_line};
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Maximum number of steps: longer runs end earlier.
 pub const MAX_STEPS: usize = 2_000_000;
@@ -39,8 +40,6 @@ pub struct Request {
     pub steps: Vec<String>,
     /// A path into the model and its values.
     pub vary: Option<(String, Vec<String>)>,
-    /// Further overrides.
-    pub overrides: Vec<Override>,
 }
 
 /// One run.
@@ -81,19 +80,18 @@ pub struct Table {
 }
 
 impl Request {
-    /// Overrides of the first run.
-    pub fn first(&self) -> Vec<Override> {
+    /// The model of the first run.
+    pub fn first(&self, model: &Model) -> Model {
         let first = |values: &Vec<String>| values.first().cloned().unwrap_or_default();
-        self.of(&first(&self.steps), self.vary.as_ref().map(|(_, values)| first(values)).as_ref())
+        self.of(model, &first(&self.steps), self.vary.as_ref().map(|(_, values)| first(values)).as_ref())
     }
 
-    fn of(&self, step: &str, value: Option<&String>) -> Vec<Override> {
-        let mut overrides = self.overrides.clone();
-        overrides.push(("analysis.step".to_owned(), step.to_owned()));
-        if let (Some((path, _)), Some(value)) = (&self.vary, value) {
-            overrides.push((path.clone(), value.clone()));
+    fn of(&self, model: &Model, step: &str, value: Option<&String>) -> Model {
+        let model = with_step(model, step);
+        match (&self.vary, value) {
+            (Some((path, _)), Some(value)) => model.with_overrides(&[(path.clone(), value.clone())]),
+            _ => model,
         }
-        overrides
     }
 
     /// Step size and varied value of every run.
@@ -112,7 +110,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     let mut rows = Vec::with_capacity(members.len());
     let mut planned = 0;
     for &(step, value) in &members {
-        let lowered = lower(&model.document(&request.of(step, value))?)?;
+        let lowered = lower(&request.of(model, step, value).document()?)?;
         if lowered.plan.is_static {
             return Err(StudyError::NotDynamic);
         }
@@ -122,7 +120,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     let effort = Effort::new(watch, planned);
     let outcomes = in_parallel(members.len(), |index| {
         let (step, value) = members[index];
-        measure(model, &request.of(step, value), &effort)
+        measure(&request.of(model, step, value), &effort)
     });
     let row = |((step, step_size, varied), outcome)| Row { step, step_size, varied, outcome };
     let rows: Vec<Row> = rows.into_iter().zip(outcomes).map(row).collect();
@@ -139,8 +137,8 @@ fn steps_of(lowered: &Lowered) -> (usize, bool) {
     if whole > MAX_STEPS as f64 { (MAX_STEPS, true) } else { (whole as usize, false) }
 }
 
-fn measure(model: &Model, overrides: &[Override], effort: &Effort<'_>) -> Result<Measured, StudyError> {
-    let lowered = lower(&model.document(overrides)?)?;
+fn measure(model: &Model, effort: &Effort<'_>) -> Result<Measured, StudyError> {
+    let lowered = lower(&model.document()?)?;
     let (steps, is_shortened) = steps_of(&lowered);
     let Lowered { system, state, settings, .. } = lowered;
     let choice = settings.scaling;

@@ -8,10 +8,10 @@ use lissom_core::schemes::Scheme;
 use lissom_model::output::LogFigure;
 
 use super::members::{Effort, in_parallel};
-use super::observed::{History, check_output, difference, observe, prepared, square};
+use super::observed::{History, check_output, difference, observe, prepared, square, with_step};
 use super::scheme_words::scheme_of;
 use super::{StudyError, Watch, csv_line};
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Tolerance of Newton's iteration, unless the user sets one or the model has a smaller one [-].
 pub const TOLERANCE: f64 = 1e-10;
@@ -37,8 +37,6 @@ pub struct Request {
     pub reference: (String, String),
     /// Name of the compared output.
     pub output: String,
-    /// Overrides.
-    pub overrides: Vec<Override>,
 }
 
 /// One run.
@@ -77,11 +75,9 @@ struct Member {
 }
 
 impl Request {
-    /// Overrides of the run with the first step size.
-    pub fn first(&self) -> Vec<Override> {
-        let mut overrides = self.overrides.clone();
-        overrides.extend(self.steps.first().map(|step| ("analysis.step".to_owned(), step.clone())));
-        overrides
+    /// The model with the first step size.
+    pub fn first(&self, model: &Model) -> Model {
+        self.steps.first().map_or_else(|| model.clone(), |step| with_step(model, step))
     }
 }
 
@@ -100,7 +96,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     order.sort_by_key(|&index| std::cmp::Reverse(members[index].counts.0));
     let outcomes = in_parallel(order.len(), |place| {
         let member = &members[order[place]];
-        let mut lowered = prepared(model, &request.overrides, &member.step, TOLERANCE)?;
+        let mut lowered = prepared(model, &member.step, TOLERANCE)?;
         lowered.settings.scheme = member.scheme.clone();
         observe(lowered, &request.output, member.counts, &effort)
     });
@@ -150,7 +146,7 @@ fn plan(model: &Model, request: &Request) -> Result<(Vec<Member>, usize, f64), S
         request.schemes.iter().map(|scheme| scheme_of(scheme)).collect::<Result<_, _>>()?;
     let reference = scheme_of(&request.reference.0)?;
     let lowered = |step: &String| {
-        let lowered = prepared(model, &request.overrides, step, TOLERANCE)?;
+        let lowered = prepared(model, step, TOLERANCE)?;
         check_output(&lowered, &request.output)?;
         Ok::<_, StudyError>(lowered)
     };

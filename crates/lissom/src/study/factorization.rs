@@ -5,7 +5,7 @@ use lissom_core::simulation::Simulation;
 use lissom_core::studies::factorization::{Case, factorization_study};
 
 use super::{StudyError, csv_line};
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// All combinations on one model.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,8 +24,8 @@ pub struct Table {
 ///
 /// # Errors
 /// If the model is invalid or has no consistent initial values.
-pub fn study(model: &Model, overrides: &[Override]) -> Result<Table, StudyError> {
-    let Lowered { system, state, settings, .. } = lower(&model.document(overrides)?)?;
+pub fn study(model: &Model) -> Result<Table, StudyError> {
+    let Lowered { system, state, settings, .. } = lower(&model.document()?)?;
     let scheme = settings.scheme.name.clone();
     let step_size = settings.step_size;
     let simulation = Simulation::new(system, state, settings)?;

@@ -9,28 +9,26 @@ use lissom_model::output::Record;
 
 use super::StudyError;
 use super::members::Effort;
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::run::report::Stopped;
 use crate::session::Session;
 
 /// Values of all components, instant by instant.
 pub(super) type History = Vec<Vec<f64>>;
 
+/// A model with time steps of `step`, as written.
+pub(super) fn with_step(model: &Model, step: &str) -> Model {
+    model.with_overrides(&[("analysis.step".to_owned(), step.to_owned())])
+}
+
 /// The model with time steps of `step`, as written. Newton's iteration has `tolerance`, unless the user sets one or
 /// the model has a smaller one: the iteration error must be below the measured error.
-pub(super) fn prepared(
-    model: &Model,
-    overrides: &[Override],
-    step: &str,
-    tolerance: f64,
-) -> Result<Lowered, StudyError> {
-    let mut all = overrides.to_vec();
-    all.push(("analysis.step".to_owned(), step.to_owned()));
-    let mut lowered = lower(&model.document(&all)?)?;
+pub(super) fn prepared(model: &Model, step: &str, tolerance: f64) -> Result<Lowered, StudyError> {
+    let mut lowered = lower(&with_step(model, step).document()?)?;
     if lowered.plan.is_static {
         return Err(StudyError::NotDynamic);
     }
-    if !overrides.iter().any(|(path, _)| path == "analysis.tolerance") {
+    if !model.overrides().iter().any(|(path, _)| path == "analysis.tolerance") {
         let limits = &mut lowered.settings.limits;
         limits.tolerance = limits.tolerance.min(tolerance);
     }
@@ -78,7 +76,7 @@ pub(super) fn observe(
         0 => ControlFlow::Continue(()),
         done => effort.note(done),
     };
-    match session.run(&mut [&mut record], watch).stopped {
+    match session.run_with(&mut [&mut record], watch).stopped {
         Stopped::End => {}
         Stopped::Interrupted => return Err(StudyError::Interrupted),
         Stopped::Failed(error) => return Err(StudyError::Run(error)),

@@ -4,9 +4,9 @@ use crate::start::Lowered;
 use lissom_model::output::LogFigure;
 
 use super::members::{Effort, in_parallel};
-use super::observed::{History, check_output, difference, observe, prepared, square};
+use super::observed::{History, check_output, difference, observe, prepared, square, with_step};
 use super::{StudyError, Watch, csv_line};
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Tolerance of Newton's iteration, unless the user sets one or the model has a smaller one: below round-off [-].
 pub const TOLERANCE: f64 = 1e-12;
@@ -24,8 +24,6 @@ pub struct Request {
     pub steps: Vec<String>,
     /// Name of the observed output.
     pub output: String,
-    /// Overrides.
-    pub overrides: Vec<Override>,
 }
 
 /// One step size.
@@ -69,11 +67,9 @@ impl Measured {
 }
 
 impl Request {
-    /// Overrides of the run with the first step size.
-    pub fn first(&self) -> Vec<Override> {
-        let mut overrides = self.overrides.clone();
-        overrides.extend(self.steps.first().map(|step| ("analysis.step".to_owned(), step.clone())));
-        overrides
+    /// The model with the first step size.
+    pub fn first(&self, model: &Model) -> Model {
+        self.steps.first().map_or_else(|| model.clone(), |step| with_step(model, step))
     }
 }
 
@@ -86,7 +82,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     let mut sizes = Vec::with_capacity(request.steps.len());
     let mut scheme = String::new();
     for step in &request.steps {
-        let lowered = prepared(model, &request.overrides, step, TOLERANCE)?;
+        let lowered = prepared(model, step, TOLERANCE)?;
         check_output(&lowered, &request.output)?;
         sizes.push(lowered.settings.step_size);
         scheme.clone_from(&lowered.settings.scheme.name);
@@ -95,7 +91,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     let effort = Effort::new(watch, planned);
     let outcomes = in_parallel(sizes.len(), |index| {
         let history = |finer: usize| {
-            let mut lowered: Lowered = prepared(model, &request.overrides, &request.steps[index], TOLERANCE)?;
+            let mut lowered: Lowered = prepared(model, &request.steps[index], TOLERANCE)?;
             lowered.settings.step_size /= finer as f64;
             observe(lowered, &request.output, (finer * STEPS, finer), &effort)
         };

@@ -117,7 +117,7 @@ pub(super) fn run(
         }
     };
     let mut collector = Collector::new(file, windows);
-    let report = session.run(&mut [&mut collector], watch);
+    let report = session.run_with(&mut [&mut collector], watch);
     collector.take_events(session.events());
     let collected = match report.stopped {
         Stopped::End => collector.values(&session.events().collect::<Vec<_>>()),

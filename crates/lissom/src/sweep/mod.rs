@@ -18,7 +18,7 @@
 //!     vary."analysis.end" = [1, 2, 3]
 //!     collect.distance = "final(stone.x)"
 //! "#, "ends.toml")?;
-//! let sweep = Sweep::new(&model, file, &[])?;
+//! let sweep = Sweep::new(&model, file)?;
 //! let mut outcomes = Vec::new();
 //! let all: Vec<usize> = (0..sweep.len()).collect();
 //! let mut keep = |outcome| { outcomes.push(outcome); Ok::<(), std::io::Error>(()) };
@@ -132,15 +132,14 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// A sweep over `model` as defined by `file`, with `overrides` in every member. The model's text is read once.
+    /// A sweep over `model` as defined by `file`. The overrides of the model are applied after those of the file. Its text is read
+    /// once.
     ///
     /// # Errors
     /// If no member has a valid model (the error is that of the first one), or if the model does not record a
     /// collected column. Single invalid members are reported in their outcomes.
-    pub fn new(model: &Model, file: SweepFile, overrides: &[Override]) -> Result<Self, SweepError> {
-        let mut all = file.set.clone();
-        all.extend_from_slice(overrides);
-        let text = model.model_text(&all)?;
+    pub fn new(model: &Model, file: SweepFile) -> Result<Self, SweepError> {
+        let text = model.over(&file.set).model_text()?;
         let registry = registry();
         let mut first = None;
         for member in 0..file.len() {
@@ -172,7 +171,7 @@ impl Sweep {
                 collected.kind().unit(column.map_or("", |index| &columns[index].unit)).to_owned()
             };
             let units = file.collect.iter().map(unit).collect();
-            let (name, overrides) = (model.name().to_owned(), overrides.to_vec());
+            let (name, overrides) = (model.name().to_owned(), model.overrides().to_vec());
             return Ok(Self { name, text, registry, file, overrides, units, warnings: document.warnings });
         }
         let nothing = || Report::new(Vec::new(), &lissom_model::Sources::default());

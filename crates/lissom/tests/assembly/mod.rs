@@ -90,7 +90,7 @@ fn corners(count: usize, is_planar: bool, dice: &mut Dice) -> Vec<Vector3> {
 
 fn lowered(text: &str) -> Lowered {
     let text = format!("lissom = 1\n{text}");
-    match Model::from_text("model.toml", &text).document(&[]).and_then(|document| lower(&document)) {
+    match Model::from_text("model.toml", &text).document().and_then(|document| lower(&document)) {
         Ok(lowered) => lowered,
         Err(report) => panic!("{}\n{text}", report.render(false)),
     }
@@ -149,7 +149,7 @@ at = [0.4, 0.02, -0.01]
 
 /// Complaint about a model that cannot be assembled.
 fn refused(text: &str) -> String {
-    let document = Model::from_text("model.toml", &format!("lissom = 1\n{text}")).document(&[]).unwrap();
+    let document = Model::from_text("model.toml", &format!("lissom = 1\n{text}")).document().unwrap();
     match lower(&document) {
         Ok(lowered) => panic!("assembled: {:?}\n{text}", lowered.assembly),
         Err(report) => report.render(false),
@@ -389,11 +389,11 @@ rotation = "1 + 2*t"
 angular_velocity = [0, 0, 2]
 "#;
     let text = format!("lissom = 1\n{ARM}{drive}{END}");
-    let session = Model::from_text("model.toml", &text).session(&[]).unwrap();
+    let session = Model::from_text("model.toml", &text).session().unwrap();
     assert_eq!(session.warnings().count(), 0);
     assert!(session.simulation().velocity_correction() < 1e-12);
     let without = text.replace("[assembly]", "");
-    let error = Model::from_text("model.toml", &without).session(&[]);
+    let error = Model::from_text("model.toml", &without).session();
     assert!(matches!(error, Err(SessionError::Model(_))), "a drive that starts elsewhere");
 }
 

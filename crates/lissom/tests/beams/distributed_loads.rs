@@ -89,7 +89,7 @@ fn a_force_per_length_may_change_in_time() {
         ("force_per_length = [0, \"1/s\", 0]", "not a finite number at s = 0"),
         ("force_per_length = [0, 1]", "must have 3 entries"),
     ] {
-        match Model::from_text("beam.toml", &beam(2, force, analysis)).session(&[]) {
+        match Model::from_text("beam.toml", &beam(2, force, analysis)).session() {
             Err(SessionError::Model(report)) => {
                 let reported = report.render(false).split_whitespace().collect::<Vec<_>>().join(" ");
                 assert!(reported.contains(words), "{reported}");
@@ -117,7 +117,7 @@ of = "top"
 #[test]
 fn a_column_buckles_under_a_force_per_length_beside_another_load() {
     let model = Model::from_text("column.toml", &column("kind = \"buckling\""));
-    let report = buckling(&model, &[], Some(2)).unwrap();
+    let report = buckling(&model, Some(2)).unwrap();
     // Greenhill: q L³/(EI) = 7.8373, of both axes alike.
     let wanted = 7.8373 * 200.0 / (8.0 * 10.0);
     for mode in &report.buckling.modes {
@@ -128,7 +128,7 @@ fn a_column_buckles_under_a_force_per_length_beside_another_load() {
 #[test]
 fn a_path_begins_without_forces_per_length() {
     let text = column("kind = \"path\"\nend = 1").replace("[-10, 0, 0]", "[0, 0, -0.01]");
-    let (record, report) = PathSession::new(&Model::from_text("beam.toml", &text), &[]).unwrap().record();
+    let (record, report) = PathSession::new(&Model::from_text("beam.toml", &text)).unwrap().record();
     assert!(matches!(report.end, PathEnd::Reached), "{report:?}");
     let tip = record.column("tip", "u3").unwrap();
     assert!(tip[0].abs() < 1e-12, "{tip:?}");
@@ -142,7 +142,7 @@ fn the_undeformed_state_is_without_forces_per_length() {
     let find = |text: &str| {
         let request =
             ModeRequest { count: Some(2), about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
-        modes(&Model::from_text("beam.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+        modes(&Model::from_text("beam.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))
     };
     let [alone, loaded] =
         [beam(3, "", "kind = \"modes\""), column("kind = \"modes\"")].map(|text| find(&text));

@@ -207,7 +207,7 @@ fn found(cable: &Cable, elements: usize, count: usize) -> (Vec<f64>, ModeReport)
     let model = Model::from_text("cable.toml", &cable.model(elements, "modes"));
     let request =
         ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
-    let report = modes(&model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
+    let report = modes(&model, &request).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.completeness, Completeness::Counted);
     (report.modes.iter().map(|mode| mode.frequency / cable.unit()).collect(), report)
 }
@@ -220,8 +220,8 @@ fn largest_error(found: &[f64], exact: &[f64]) -> f64 {
 fn load_steps_find_the_elastic_catenary_from_a_cable_without_tension() {
     let cable = Cable::new(0.4, 500.0);
     let model = Model::from_text("cable.toml", &cable.model(24, "statics"));
-    let mut session = Session::new(&model.document(&[]).unwrap()).unwrap();
-    let (record, _) = session.record();
+    let mut session = Session::new(&model.document().unwrap()).unwrap();
+    let record = session.run().unwrap();
     let last = |name: &str, part: &str| *record.column(name, part).unwrap().last().unwrap();
     let (force, sag) = (last("support", "f1").abs(), -last("middle", "z"));
     assert!((force / cable.force - 1.0).abs() < 1e-6, "{force} for {}", cable.force);
@@ -238,9 +238,8 @@ fn a_given_number_of_load_steps_finds_it_too() {
     let cable = Cable::new(0.4, 500.0);
     let text = cable.model(24, "statics").replace("kind = \"statics\"", "kind = \"statics\"\nsteps = 3");
     let model = Model::from_text("cable.toml", &text);
-    let mut session = Session::new(&model.document(&[]).unwrap()).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Session::new(&model.document().unwrap()).unwrap();
+    let record = session.run().unwrap();
     assert_eq!(record.times.len(), 4);
     let force = record.column("support", "f1").unwrap().last().unwrap().abs();
     assert!((force / cable.force - 1.0).abs() < 1e-6, "{force} for {}", cable.force);
@@ -256,7 +255,7 @@ fn a_path_along_a_number_begins_where_relaxation_ends() {
         &format!("gravity = [0, 0, \"-g\"]\n[parameters]\ng = {GRAVITY}"),
     );
     let along = format!("{text}vary = \"parameters.g\"\nend = 20\n");
-    let mut session = PathSession::new(&Model::from_text("cable.toml", &along), &[]).unwrap();
+    let mut session = PathSession::new(&Model::from_text("cable.toml", &along)).unwrap();
     assert!(session.warnings().iter().any(|warning| matches!(warning, Warning::Relaxed { .. })));
     let (record, report) = session.record();
     assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
@@ -269,8 +268,7 @@ fn a_path_along_a_number_begins_where_relaxation_ends() {
     let reported = summary.get("warnings").unwrap().to_string();
     assert!(reported.contains("relaxed-equilibrium"), "{reported}");
     // Along the load factor there is nothing to begin with, and the message says what to do.
-    let mut session =
-        PathSession::new(&Model::from_text("cable.toml", &format!("{text}end = 1\n")), &[]).unwrap();
+    let mut session = PathSession::new(&Model::from_text("cable.toml", &format!("{text}end = 1\n"))).unwrap();
     let (_, report) = session.record();
     let PathEnd::Failed(error) = report.end else { panic!("{:?}", report.end) };
     assert!(error.to_string().contains("apply tension"), "{error}");

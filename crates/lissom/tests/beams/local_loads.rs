@@ -140,9 +140,8 @@ fn a_chain_in_a_current_hangs_at_the_angle_of_drag_and_weight() {
         "kind = \"revolute\"\nbase = \"ground\"\ntip = \"cable.start\"\naxis = [0, 0, 1]",
     );
     // From the first load on, however small, the chain turns from its given line to that of equilibrium: a jump, which is reported.
-    let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Model::from_text("model.toml", &text).session().unwrap();
+    let record = session.run().unwrap();
     let (drag, weight) = (0.3 * 4.0, 0.3 * 9.81);
     let [x, y] = ["x", "y"].map(|component| last(&record, "middle", component));
     assert!((x / -y - drag / weight).abs() < 1e-3, "{x} {y}");
@@ -289,7 +288,7 @@ fn golands_wing_flutters_at_its_speed() {
             about: Some(OperatingPoint::Undeformed),
             ..ModeRequest::default()
         };
-        let report = modes(&Model::from_text("wing.toml", WING), &set, &request).unwrap();
+        let report = modes(&Model::from_text("wing.toml", WING).with_overrides(&set), &request).unwrap();
         let unstable = report.modes.iter().filter(|mode| mode.frequency > 5.0 && mode.damping < 0.0);
         unstable.map(|mode| mode.frequency).collect::<Vec<f64>>()
     };
@@ -346,8 +345,8 @@ fn tables_over_two_expressions_are_interpolated() {
             );
         let files = [("aerodyn.dat", aerodyn), ("hawc2.dat", hawc2)];
         let files = files.map(|(name, text)| (name.to_owned(), text.to_owned())).into();
-        let mut session = Model::from_text("model.toml", &text).with_included(files).session(&[]).unwrap();
-        let (record, report) = session.record();
+        let mut session = Model::from_text("model.toml", &text).with_included(files).session().unwrap();
+        let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
         assert!(report.error().is_none(), "{}", report.error().unwrap());
         let (found, expected) = (last(&record, "ball", "v3"), -limit * (9.81 * 3.0 / limit).tanh());
         assert!((found - expected).abs() < 1e-6, "{table}: {found} {expected}");
@@ -368,7 +367,7 @@ fn tables_over_two_expressions_are_interpolated() {
                 let model = Model::from_text("model.toml", &changed);
                 let files = [("aerodyn.dat", aerodyn), ("hawc2.dat", hawc2)];
                 let files = files.map(|(name, text)| (name.to_owned(), text.to_owned())).into();
-                let Err(SessionError::Model(report)) = model.with_included(files).session(&[]) else {
+                let Err(SessionError::Model(report)) = model.with_included(files).session() else {
                     panic!("{changed} is accepted")
                 };
                 let problem = report.render(false);
@@ -383,8 +382,8 @@ fn tables_over_two_expressions_are_interpolated() {
 fn an_expression_without_a_value_ends_the_run_with_its_name() {
     for (expression, when) in [("sqrt(10 + v3)", "t = "), ("sqrt(-1 + 0*v3)", "t = 0")] {
         let text = FALL.replace("\"c*speed*u2\"", &format!("\"0*{expression}\""));
-        let problem = match Model::from_text("model.toml", &text).session(&[]) {
-            Ok(mut session) => session.record().1.error().expect("a failure").to_string(),
+        let problem = match Model::from_text("model.toml", &text).session() {
+            Ok(mut session) => session.run().expect_err("a failure").to_string(),
             Err(error) => error.to_string(),
         };
         let name = format!("`force` of local load `drag` = 0*{expression}");
@@ -561,7 +560,7 @@ fn a_rotor_whirls_beyond_the_cross_coupling_that_damping_can_bear() {
     for (share, is_stable) in [(0.99, true), (1.01, false)] {
         let text = ROTOR.replace("k = 1e5\n", &format!("k = 1e5\nc = 40\nq = {}\n", share * onset));
         let request = ModeRequest { about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
-        let report = modes(&Model::from_text("rotor.toml", &text), &[], &request).unwrap();
+        let report = modes(&Model::from_text("rotor.toml", &text), &request).unwrap();
         let least = report.modes.iter().filter(|mode| mode.frequency > 1.0).map(|mode| mode.damping);
         let least = least.fold(f64::INFINITY, f64::min);
         assert_eq!(least > 0.0, is_stable, "{share}: {least}");

@@ -114,9 +114,7 @@ fn last(record: &Record, output: &str, component: &str) -> f64 {
 
 fn run(text: &str, set: &[(&str, &str)]) -> Record {
     let set: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let (record, report) = model(text).session(&set).unwrap().record();
-    assert!(report.is_complete());
-    record
+    model(text).with_overrides(&set).session().unwrap().run().unwrap().into_record()
 }
 
 /// What the works miss of the kinetic energy of the cart, over the largest work.
@@ -176,8 +174,9 @@ fn angles_go_on_beyond_half_a_turn() {
     // About an axis that is turned over there is no angle, which is reported.
     let tumbling = MODEL.replace("axis = [0, 0, 1]\n[outputs.behind]", "axis = [1, 0, 0]\n[outputs.behind]");
     assert_ne!(tumbling, MODEL);
-    let mut session = model(&tumbling).session(&[("analysis.step".into(), "0.003".into())]).unwrap();
-    let (record, _) = session.record();
+    let mut session =
+        model(&tumbling).with_overrides(&[("analysis.step".into(), "0.003".into())]).session().unwrap();
+    let record = session.run().unwrap();
     assert!(last(&record, "turned", "angle").is_nan());
     assert!(session.warnings().any(|warning| warning.code() == "output-lost"));
 }
@@ -185,10 +184,10 @@ fn angles_go_on_beyond_half_a_turn() {
 #[test]
 fn works_and_angles_go_on_from_a_snapshot_to_the_last_bit() {
     let whole = run(MODEL, &[]);
-    let mut session = model(MODEL).session(&[]).unwrap();
+    let mut session = model(MODEL).session().unwrap();
     session.step_to(1.37).unwrap();
     let bytes = session.snapshot().to_bytes();
-    let mut again: Session = model(MODEL).session(&[]).unwrap();
+    let mut again: Session = model(MODEL).session().unwrap();
     again.restore(&SessionSnapshot::from_bytes(&bytes).unwrap()).unwrap();
     while !again.is_finished() {
         again.advance().unwrap();
@@ -201,7 +200,7 @@ fn works_and_angles_go_on_from_a_snapshot_to_the_last_bit() {
     }
     // A snapshot of the model without them is one of another model.
     let without = MODEL.replace("[outputs.motor]\nkind = \"work\"", "[outputs.motor]\nkind = \"power\"");
-    let other = model(&without).session(&[]).unwrap().snapshot();
+    let other = model(&without).session().unwrap().snapshot();
     assert!(again.restore(&other).is_err());
 }
 
@@ -214,7 +213,7 @@ fn works_have_gradients() {
         [outputs.push]\nkind = \"work\"\nof = \"push\"\n\
         [analysis]\nkind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 3\nstep = 0.1\n";
     let target = "push.work".parse().unwrap();
-    let found = gradient(&model(text), &[], &target, &["loads.push.force".to_owned()], true).unwrap();
+    let found = gradient(&model(text), &target, &["loads.push.force".to_owned()], true).unwrap();
     assert!((found.value - 81.0).abs() < 1e-8, "{}", found.value);
     assert!((found.derivatives[0].value - 27.0).abs() < 1e-6, "{}", found.derivatives[0].value);
 }
@@ -303,7 +302,7 @@ fn work_needs_a_motion_and_cycles_an_exponent() {
         ),
     ] {
         let error = model(&MODEL.replacen(from, to, 1))
-            .document(&[])
+            .document()
             .and_then(|document| lissom::start::lower(&document).map(|_| ()));
         let shown = error.unwrap_err().render(false);
         let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");

@@ -112,9 +112,8 @@ fn vectors(record: &Record, output: &str, names: [&str; 3]) -> Vec<Vector3> {
 
 #[test]
 fn what_an_observer_sees_is_what_formulas_say() {
-    let mut session = Model::from_text("seen.toml", MODEL).session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Model::from_text("seen.toml", MODEL).session().unwrap();
+    let record = session.run().unwrap();
     let xyz = ["x", "y", "z"];
     let (seen, drift) = (vectors(&record, "seen", xyz), vectors(&record, "drift", ["u1", "u2", "u3"]));
     let (speed, turned) =
@@ -238,10 +237,8 @@ fn mistakes_in_outputs_and_starts_are_reported() {
         ),
     ] {
         assert!(MODEL.contains(from), "{from}");
-        let error = Model::from_text("wrong.toml", &MODEL.replacen(from, to, 1))
-            .session(&[])
-            .map(|_| ())
-            .unwrap_err();
+        let error =
+            Model::from_text("wrong.toml", &MODEL.replacen(from, to, 1)).session().map(|_| ()).unwrap_err();
         let lissom::SessionError::Model(report) = error else { panic!("{error}") };
         let shown = report.render(false);
         let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
@@ -255,7 +252,7 @@ fn an_entry_of_parts_moves_with_all_that_is_in_it() {
         .replace("[bodies.stone]", "[parts.kit.bodies.stone]")
         .replace("parts = [\"stone\"]", "parts = [\"kit\"]")
         .replace("of = \"stone\"", "of = \"kit.stone\"");
-    let (record, _) = Model::from_text("kit.toml", &text).session(&[]).unwrap().record();
+    let record = Model::from_text("kit.toml", &text).session().unwrap().run().unwrap();
     assert!((record.column("turned", "v1").unwrap()[0] - 1.0).abs() < 1e-15);
 }
 
@@ -398,9 +395,8 @@ step = 2e-4
 
 #[test]
 fn powers_are_what_the_kinetic_energy_grows_by() {
-    let mut session = Model::from_text("powers.toml", POWERS).session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Model::from_text("powers.toml", POWERS).session().unwrap();
+    let record = session.run().unwrap();
     let of = |output: &str, component: &str| {
         record.column(output, component).unwrap_or_else(|| panic!("{output}"))
     };
@@ -428,7 +424,7 @@ fn powers_are_what_the_kinetic_energy_grows_by() {
 #[test]
 fn what_has_no_power_is_reported_with_what_has() {
     let elbow = POWERS.replace("of = \"shoulder\"\n[outputs.drive]", "of = \"elbow\"\n[outputs.drive]");
-    let words = |text: &str| match Model::from_text("powers.toml", text).session(&[]) {
+    let words = |text: &str| match Model::from_text("powers.toml", text).session() {
         Err(SessionError::Model(report)) => report.render(false),
         _ => panic!("the model is wrong"),
     };
@@ -445,9 +441,8 @@ fn a_line_is_the_places_of_all_nodes() {
     let model = CANTILEVER.to_owned()
         + "\n[outputs.axis]\nkind = \"line\"\nof = \"bar\"\n[outputs.foot]\nkind = \"position\"\nof = \"bar@0\"\n\
            [outputs.end]\nkind = \"position\"\nof = \"bar@1\"\n";
-    let mut session = Model::from_text("line.toml", &model).session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Model::from_text("line.toml", &model).session().unwrap();
+    let record = session.run().unwrap();
     let components: Vec<&str> = record
         .columns
         .iter()

@@ -102,9 +102,14 @@ fn a_model_that_is_a_part_moves_as_it_did() {
         let set = [("analysis.end".to_owned(), "0.25".to_owned())];
         let model = Model::from_text("whole.toml", &whole)
             .with_included([("p.toml".to_owned(), parts.join("\n"))].into());
-        let (placed, report) = model.session(&set).unwrap_or_else(|error| panic!("{name}: {error}")).record();
-        assert!(report.is_complete());
-        let (alone, _) = Model::from_text("alone.toml", &text).session(&set).unwrap().record();
+        let placed = model
+            .with_overrides(&set)
+            .session()
+            .unwrap_or_else(|error| panic!("{name}: {error}"))
+            .run()
+            .unwrap();
+        let alone =
+            Model::from_text("alone.toml", &text).with_overrides(&set).session().unwrap().run().unwrap();
         for (output, names) in outputs {
             let as_was = vectors(&alone, output, names);
             let now = vectors(&placed, &format!("p.{output}"), names);

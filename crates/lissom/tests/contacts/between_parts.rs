@@ -247,7 +247,7 @@ fn statics_and_modes_know_contacts() {
     assert!((last(&record, "floor.gap") + 9.81e-7).abs() < 1e-12, "{}", last(&record, "floor.gap"));
     let request =
         ModeRequest { count: Some(1), about: Some(OperatingPoint::Static), shift: None, no_plots: true };
-    let report = modes(&Model::from_text("contact.toml", &text), &[], &request);
+    let report = modes(&Model::from_text("contact.toml", &text), &request);
     let frequency = report.unwrap_or_else(|error| panic!("{error}")).modes[0].frequency;
     let wanted = 1e7_f64.sqrt() / std::f64::consts::TAU;
     assert!((frequency - wanted).abs() < 1e-9 * wanted, "{frequency} {wanted}");
@@ -309,9 +309,9 @@ fn parts_that_pass_through_each_other_are_reported() {
         .replace("end = 0.46", "end = 0.8");
     for (stiffness, is_reported) in [("100", true), ("1e6", false)] {
         let set = [("contacts.floor.stiffness".to_owned(), stiffness.to_owned())];
-        let mut session = Model::from_text("plate.toml", &plate).session(&set).expect("valid");
-        let (_, report) = session.record();
-        assert!(report.is_complete(), "{:?}", report.error());
+        let mut session =
+            Model::from_text("plate.toml", &plate).with_overrides(&set).session().expect("valid");
+        session.run().unwrap();
         let codes: Vec<_> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         assert_eq!(codes.contains(&"contact-too-deep"), is_reported, "{stiffness}: {codes:?}");
     }
@@ -359,7 +359,7 @@ end = {end}
 fn modes_about(text: &str, about: OperatingPoint) -> lissom::modes::ModeReport {
     let request =
         ModeRequest { count: Some(30), about: Some(about), no_plots: true, ..ModeRequest::default() };
-    modes(&Model::from_text("contact.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+    modes(&Model::from_text("contact.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A part that sticks vibrates on its bristles: with the deflection z, λ² + (1 - z²/z_c²) μ g/v_s λ + μ g/z_c = 0 in both directions.
@@ -413,7 +413,7 @@ fn modes_of_a_sliding_part_have_no_bristles() {
 #[test]
 fn statics_with_friction_are_rejected() {
     let text = pressed(0.0, 0.4, 0.0, 1.0).replace("kind = \"dynamics\"", "kind = \"statics\"\nsteps = 2");
-    let error = match Model::from_text("contact.toml", &text).session(&[]) {
+    let error = match Model::from_text("contact.toml", &text).session() {
         Err(error) => error.to_string(),
         Ok(_) => panic!("statics without rates"),
     };
@@ -424,7 +424,7 @@ fn statics_with_friction_are_rejected() {
 fn derivatives(text: &str, of: &str, paths: &[&str]) -> Vec<f64> {
     let paths: Vec<String> = paths.iter().map(|path| (*path).to_owned()).collect();
     let model = Model::from_text("contact.toml", text);
-    let found = gradient(&model, &[], &of.parse().expect("a target"), &paths, true)
+    let found = gradient(&model, &of.parse().expect("a target"), &paths, true)
         .unwrap_or_else(|error| panic!("{of}: {error}"));
     assert!(found.derivatives.iter().all(|of| of.method == Method::Runs));
     found.derivatives.iter().map(|of| of.value).collect()
@@ -512,7 +512,6 @@ fn friction_of_contacts_is_differentiated() {
     let model = Model::from_text("contact.toml", &event);
     let refused = gradient(
         &model,
-        &[],
         &"block.u1".parse().expect("a target"),
         &["contacts.floor.friction".to_owned()],
         true,
@@ -562,9 +561,8 @@ fn balls_in_hollows_are_reported() {
         (at("[1.02, 1.11, 0]"), false),
         (GROOVE.replace(outline, planes), false),
     ] {
-        let mut session = Model::from_text("groove.toml", &text).session(&[]).expect("valid");
-        let (record, report) = session.record();
-        assert!(report.is_complete(), "{:?}", report.error());
+        let mut session = Model::from_text("groove.toml", &text).session().expect("valid");
+        let record = session.run().unwrap();
         let largest = series(&record, "groove.normal").iter().copied().fold(0.0, f64::max);
         assert!(largest > 1.0, "no contact: {text}");
         let found = session.warnings().filter(|warning| warning.code() == "contact-in-hollow");

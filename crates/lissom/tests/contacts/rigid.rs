@@ -10,8 +10,7 @@ use crate::support::series::{last, series};
 /// The record, and the events with their times.
 fn run(text: &str, set: &[(&str, &str)]) -> (Record, Vec<(String, f64)>) {
     let mut session = session(text, set);
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
+    let record = session.run().unwrap().into_record();
     let warnings: Vec<_> = session.warnings().collect();
     assert!(warnings.is_empty(), "{set:?}: {warnings:?}");
     let events = session.events().map(|(name, time)| (name.to_owned(), time)).collect();
@@ -24,11 +23,11 @@ fn of(events: &[(String, f64)], name: &str) -> Vec<f64> {
 
 /// Why a run ends before its end.
 fn failure(text: &str) -> String {
-    let mut session = match Model::from_text("rigid.toml", text).session(&[]) {
+    let mut session = match Model::from_text("rigid.toml", text).session() {
         Ok(session) => session,
         Err(error) => return error.to_string(),
     };
-    let (_, report) = session.record();
+    let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     report.error().map(ToString::to_string).expect("the run fails")
 }
 
@@ -391,8 +390,7 @@ fn a_tumbling_box_never_gains_energy_and_comes_to_rest() {
         for friction in ["0", "0.15", "0.3", "0.6"] {
             let set = [("bodies.box.rotation", turn), ("contacts.floor.friction", friction)];
             let mut session = session(TUMBLING, &set);
-            let (record, report) = session.record();
-            assert!(report.is_complete(), "{set:?}: {:?}", report.error());
+            let record = session.run().unwrap();
             let energy = series(&record, "energy.total");
             for pair in energy.windows(2) {
                 assert!(pair[1] - pair[0] < 1e-5 * energy[0], "{set:?}: {pair:?}");
@@ -570,8 +568,7 @@ end = 10
         assert!((last(&record, "ball.v2") - 7.2).abs() < 1e-6, "{end}: {}", last(&record, "ball.v2"));
     }
     let mut session = session(text, &[("analysis.step", "3"), ("analysis.end", "12")]);
-    let (_, report) = session.record();
-    assert!(report.is_complete());
+    session.run().unwrap();
     let warnings: Vec<String> = session.warnings().map(ToString::to_string).collect();
     assert!(warnings.iter().any(|warning| warning.contains("post")), "{warnings:?}");
 }
@@ -594,6 +591,6 @@ fn what_is_not_available_is_rejected() {
     assert!(refused(&latched).contains("latch"), "{}", refused(&latched));
     let request =
         ModeRequest { count: None, about: Some(OperatingPoint::Undeformed), shift: None, no_plots: true };
-    let error = modes(&Model::from_text("rigid.toml", BALL), &[], &request).expect_err("it has no modes");
+    let error = modes(&Model::from_text("rigid.toml", BALL), &request).expect_err("it has no modes");
     assert!(error.to_string().contains("floor"), "{error}");
 }

@@ -14,8 +14,7 @@ const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hh
 
 fn run(text: &str, set: &[(&str, &str)]) -> (Record, Vec<String>) {
     let mut session = session(text, set);
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
+    let record = session.run().unwrap_or_else(|error| panic!("{set:?}: {error:?}")).into_record();
     let warnings = session.warnings().map(ToString::to_string).collect();
     (record, warnings)
 }
@@ -160,7 +159,7 @@ fn a_body_that_turns_and_goes_along_moves_as_one_in_axes_that_run_with_it() {
 fn a_snapshot_in_the_middle_changes_nothing() {
     let set = overrides(&[("analysis.end", "0.05"), ("analysis.step", "5e-4")]);
     let model = Model::from_text("wheelset.toml", MODEL);
-    let open = || model.session(&set).map_err(|_| "valid").expect("valid");
+    let open = || model.with_overrides(&set).session().map_err(|_| "valid").expect("valid");
     let mut whole = open();
     let mut first = open();
     for _ in 0..40 {
@@ -237,7 +236,7 @@ fn steady(set: &[(&str, &str)]) -> ModeReport {
     let middle = middle.iter().map(|path| (path.as_str(), "0"));
     let all: Vec<_> = middle.chain(set.iter().copied()).collect();
     let request = ModeRequest { about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
-    modes(&Model::from_text("wheelset.toml", MODEL), &overrides(&all), &request)
+    modes(&Model::from_text("wheelset.toml", MODEL).with_overrides(&overrides(&all)), &request)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -28,7 +28,7 @@ fn set(overrides: &[(&str, &str)]) -> Vec<Override> {
 }
 
 fn find(text: &str, overrides: &[(&str, &str)], request: &ModeRequest) -> ModeReport {
-    modes(&Model::from_text("model.toml", text), &set(overrides), request)
+    modes(&Model::from_text("model.toml", text).with_overrides(&set(overrides)), request)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -161,7 +161,7 @@ fn a_blade_of_any_axial_stiffness_has_its_modes_in_rotation() {
 fn a_diagram_of_a_light_damped_shaft_converges_at_every_speed() {
     let request =
         CampbellRequest { vary: "parameters.speed=100:400:7".parse().unwrap(), count: 3, rays: vec![1] };
-    let report = campbell(&Model::from_text("model.toml", DAMPED_ROTOR), &[], &request)
+    let report = campbell(&Model::from_text("model.toml", DAMPED_ROTOR), &request)
         .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.points.len(), 7);
     assert!(report.points.iter().all(|point| point.modes.len() == 3), "{}", report.csv());
@@ -268,7 +268,7 @@ fn an_imperfect_bifurcation_is_passed_on_the_connected_path() {
 fn derivatives(text: &str, of: &str, by: &[&str]) -> GradientReport {
     let target: Target = of.parse().unwrap();
     let paths: Vec<String> = by.iter().map(|&path| path.to_owned()).collect();
-    gradient(&Model::from_text("model.toml", text), &[], &target, &paths, true)
+    gradient(&Model::from_text("model.toml", text), &target, &paths, true)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -309,10 +309,9 @@ fn derivatives_through_one_sided_springs_and_free_play_see_when_they_switch() {
 }
 
 fn warnings_of(text: &str) -> (Vec<String>, bool) {
-    let document =
-        Model::from_text("model.toml", text).document(&[]).unwrap_or_else(|error| panic!("{error}"));
+    let document = Model::from_text("model.toml", text).document().unwrap_or_else(|error| panic!("{error}"));
     let mut session = Session::new(&document).unwrap_or_else(|error| panic!("{error}"));
-    let (_, report) = session.record();
+    let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     let words = session.simulation().warnings().iter().map(|warning| warning.code().to_owned()).collect();
     (words, report.error().is_none())
 }
@@ -325,9 +324,9 @@ fn released_prestress_is_no_jump() {
 
 #[test]
 fn a_slack_cable_is_decided_quickly() {
-    let document = Model::from_text("model.toml", SLACK_CABLE).document(&[]).unwrap();
+    let document = Model::from_text("model.toml", SLACK_CABLE).document().unwrap();
     let mut session = Session::new(&document).unwrap();
-    let (_, report) = session.record();
+    let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     let iterations = session.simulation().totals().newton_iterations;
     assert!(iterations < 3000, "{iterations} iterations, {:?}", report.error());
 }
@@ -336,10 +335,10 @@ fn a_slack_cable_is_decided_quickly() {
 fn an_arc_has_a_default_up_that_it_does_not_run_along() {
     let text = SLACK_CABLE.replace("up=[0,1,0]\n", "");
     assert_ne!(text, SLACK_CABLE);
-    let document = Model::from_text("model.toml", &text).document(&[]).unwrap();
+    let document = Model::from_text("model.toml", &text).document().unwrap();
     assert!(Session::new(&document).is_ok());
     let flipped = SLACK_CABLE.replace("up=[0,1,0]", "up=[0,0,1]");
-    let error = Model::from_text("model.toml", &flipped).document(&[]).unwrap_err().render(false);
+    let error = Model::from_text("model.toml", &flipped).document().unwrap_err().render(false);
     assert!(error.contains("`up`") && error.contains("would reverse"), "{error}");
 }
 
@@ -357,7 +356,7 @@ fn velocities_of_round_off_are_no_contradiction() {
         let (codes, is_done) = warnings_of(&held(speed));
         assert!(is_done && codes.is_empty(), "{speed}: {codes:?}");
     }
-    let document = Model::from_text("model.toml", &held("1")).document(&[]).unwrap();
+    let document = Model::from_text("model.toml", &held("1")).document().unwrap();
     let error = Session::new(&document).err().expect("entirely prevented").to_string();
     assert!(error.contains("initial velocity") && !error.contains("drives prescribe"), "{error}");
 }

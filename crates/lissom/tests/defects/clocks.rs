@@ -13,7 +13,7 @@ fn controlled_arm(analysis: &str) -> String {
 /// Largest difference of any value between a session with an accumulating clock and one with exact times.
 fn difference(text: &str, step: f64, count: u32, compared: u32) -> f64 {
     let model = Model::from_text("model.toml", text);
-    let [mut accumulated, mut exact] = [0, 1].map(|_| model.session(&[]).unwrap());
+    let [mut accumulated, mut exact] = [0, 1].map(|_| model.session().unwrap());
     let (mut clock, mut most) = (0.0, 0.0_f64);
     for k in 1..=count {
         clock += step;

@@ -907,7 +907,7 @@ fn requests_at_live_are_bounded() {
 #[test]
 fn states_with_a_changed_byte_are_rejected() {
     let text = include_str!("../../../../examples/controlled-arm.toml");
-    let mut session = Model::from_text("model.toml", text).session(&[]).unwrap();
+    let mut session = Model::from_text("model.toml", text).session().unwrap();
     session.step_to(0.5).unwrap();
     let bytes = session.snapshot().to_bytes();
     assert!(SessionSnapshot::from_bytes(&bytes).is_ok());

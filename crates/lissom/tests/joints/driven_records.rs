@@ -101,9 +101,7 @@ fn closed_form(angle: f64) -> [f64; 3] {
 
 fn record(text: &str, settings: &[(&str, &str)]) -> Record {
     let mut session = session(text, settings);
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{report:?}");
-    record
+    session.run().unwrap().into_record()
 }
 
 /// Largest error of a column against a function of the crank's angle, over the largest value of the function.

@@ -178,7 +178,7 @@ step = 0.005
 fn modes_are_those_of_the_matrices() {
     let text = oscillator("0").replace(&format!("{STIFFNESS:?}"), "[30, 40, 25]");
     let request = ModeRequest::default();
-    let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
+    let report = modes(&Model::from_text("model.toml", &text), &request).unwrap();
     // 2ω² - 30 and ω² - 40, coupled by 0.5 ω²: 1.75 ω⁴ - 110 ω² + 1200 = 0; 1.5 ω² = 25.
     let root = (110.0_f64 * 110.0 - 4.0 * 1.75 * 1200.0).sqrt();
     let mut wanted = [(110.0 - root) / 3.5, 25.0 / 1.5, (110.0 + root) / 3.5];
@@ -193,9 +193,8 @@ fn modes_are_those_of_the_matrices() {
 /// Negative damping puts energy in, which is work and no surplus.
 #[test]
 fn negative_damping_is_a_drive() {
-    let mut session = Model::from_text("model.toml", &oscillator("-0.5")).session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = Model::from_text("model.toml", &oscillator("-0.5")).session().unwrap();
+    let record = session.run().unwrap();
     let energy = column(&record, "energy", "total");
     assert!(energy[energy.len() - 1] > 2.0 * energy[0]);
     let energy_balance = session.simulation().energy_balance();
@@ -245,7 +244,7 @@ fn an_entry_acts_on_a_hundred_coordinates_at_most() {
             names.join(", ")
         )
     };
-    assert!(Model::from_text("model.toml", &model(100)).session(&[]).is_ok());
+    assert!(Model::from_text("model.toml", &model(100)).session().is_ok());
     let message = refused::refused(&model(101));
     assert!(message.contains("names 101 coordinates; an entry has at most 100"), "{message}");
 }

@@ -63,7 +63,7 @@ fn closed_form([a, b]: [f64; 2], [u, v]: [f64; 2]) -> ([[f64; 2]; 2], [f64; 2]) 
 }
 
 fn prepared(text: &str) -> Prepared {
-    Model::from_text("model.toml", text).prepare(&[]).expect("valid")
+    Model::from_text("model.toml", text).prepare().expect("valid")
 }
 
 fn named(values: [f64; 2]) -> Vec<(String, f64)> {

@@ -93,7 +93,7 @@ fn rotation(record: &Record, part: &str, row: usize) -> Rotation {
 
 /// Outputs of bodies, coordinates and springs of a model, and what is checked of them.
 fn check(text: &str, parts: &[&str], observers: [&str; 2], springs: &[&str], tolerance: f64) {
-    let document = Model::from_text("model.toml", text).document(&[]).unwrap();
+    let document = Model::from_text("model.toml", text).document().unwrap();
     let names = lower(&document).expect("a model").names;
     let counts = names.coordinates.iter().map(|(name, own)| (name.clone(), own.len()));
     let coordinates: Vec<(String, usize)> = counts.filter(|(_, count)| *count > 0).collect();

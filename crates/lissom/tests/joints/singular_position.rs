@@ -11,9 +11,8 @@ fn change_of_energy(step_size: &str, spectral_radius: &str) -> f64 {
     let model = Model::read(Path::new(&path)).unwrap();
     let overrides = [("analysis.step", step_size), ("analysis.spectral_radius", spectral_radius)]
         .map(|(path, value)| (path.to_owned(), value.to_owned()));
-    let mut session = model.session(&overrides).unwrap();
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
+    let mut session = model.with_overrides(&overrides).session().unwrap();
+    let (_, report) = session.run().unwrap().into_parts();
     report.energy.largest
 }
 

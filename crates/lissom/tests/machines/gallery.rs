@@ -320,7 +320,7 @@ fn a_wing_flutters_with_a_limited_amplitude() {
             ..ModeRequest::default()
         };
         let model = Model::from_text("wing-flutter.toml", model!("wing-flutter"));
-        let report = modes(&model, &set, &request).unwrap();
+        let report = modes(&model.with_overrides(&set), &request).unwrap();
         // States of points whose air hardly moves the wing decay, and are no rigid motions.
         assert!(report.modes.iter().all(|mode| mode.frequency > 0.1));
         let least = report.modes.iter().map(|mode| mode.damping).fold(f64::INFINITY, f64::min);

@@ -220,7 +220,7 @@ fn a_wheel_that_does_not_touch_is_refused() {
     assert!(said.contains("from the plane"), "{said}");
     let statics =
         model.replace("kind = \"dynamics\"", "kind = \"statics\"").replace("step = 1e-3", "steps = 4");
-    let Err(error) = lissom::Model::from_text("statics.toml", &statics).session(&[]) else {
+    let Err(error) = lissom::Model::from_text("statics.toml", &statics).session() else {
         panic!("not rejected")
     };
     assert!(error.to_string().contains("rolling"), "{error}");
@@ -235,7 +235,7 @@ fn a_wheel_that_lies_flat_is_refused() {
     let said = refused(&flat.replace("radius = 0.2", ""));
     assert!(said.contains("is flat"), "{said}");
     let leaning = format!("wheel_axis = [{}, 0, 1]", 2e-3);
-    let session = |model: &str| lissom::Model::from_text("wheel.toml", model).session(&[]).map(|_| ());
+    let session = |model: &str| lissom::Model::from_text("wheel.toml", model).session().map(|_| ());
     session(&model.replace(axis, &leaning).replace("radius = 0.2", "")).expect("it stands on its rim");
     let height = 0.2 * 1.1_f64.sin();
     let ball = format!("radius = 0\nrim = {height}");
@@ -246,9 +246,8 @@ fn a_wheel_that_lies_flat_is_refused() {
 #[test]
 fn a_wheel_that_would_slide_or_lift_is_reported() {
     let warnings = |model: &str| {
-        let mut session = lissom::Model::from_text("wheel.toml", model).session(&[]).expect("a model");
-        let (_, report) = session.record();
-        assert!(report.is_complete());
+        let mut session = lissom::Model::from_text("wheel.toml", model).session().expect("a model");
+        session.run().unwrap();
         session.warnings().map(|warning| warning.code().to_owned()).collect::<Vec<_>>()
     };
     let model = Precession::new(0.2, 1.1, 3.0).model("step = 5e-3");
@@ -266,9 +265,8 @@ fn a_point_of_contact_that_runs_round_in_few_steps_is_reported() {
     let disc = Precession::new(0.2, 0.05, 62.0);
     let warnings = |analysis: &str| {
         let mut session =
-            lissom::Model::from_text("flat.toml", &disc.model(analysis)).session(&[]).expect("a model");
-        let (_, report) = session.record();
-        assert!(report.is_complete());
+            lissom::Model::from_text("flat.toml", &disc.model(analysis)).session().expect("a model");
+        session.run().unwrap();
         session.warnings().map(|warning| (warning.code().to_owned(), warning.to_string())).collect::<Vec<_>>()
     };
     let reported = warnings("step = 1e-2");
@@ -339,7 +337,7 @@ step = 2e-3
     }
     // Only one of two forces along the axle is determined.
     let with_reaction = format!("{}[outputs.right]\nkind = \"reaction\"\nof = \"right_wheel\"\n", model(""));
-    let session = lissom::Model::from_text("axle.toml", &with_reaction).session(&[]).expect("valid");
+    let session = lissom::Model::from_text("axle.toml", &with_reaction).session().expect("valid");
     let warnings: Vec<String> = session.warnings().map(ToString::to_string).collect();
     let is_named = |text: &String| text.contains("right.f2") && text.contains("translation along y");
     assert!(warnings.iter().any(is_named), "{warnings:?}");

@@ -98,8 +98,7 @@ step = 1e-3
 "#;
 
 fn robot(text: &str) -> Result<(Robot, Vec<(String, f64)>), String> {
-    let document =
-        Model::from_text("model.toml", text).document(&[]).map_err(|report| report.render(false))?;
+    let document = Model::from_text("model.toml", text).document().map_err(|report| report.render(false))?;
     let found = from_model(&document).map_err(|error| error.to_string())?;
     Ok((found.robot, found.values))
 }

@@ -198,7 +198,8 @@ fn a_branch_that_is_not_there_is_refused() {
     let PathEnd::Failed(error) = &report.end else { panic!("{:?}", report.end) };
     let words = error.to_string();
     assert!(words.contains("bifurcation(s), not the 9"), "{words}");
-    let half =
-        Model::from_text("model.toml", &high_truss()).document(&[("analysis.branch".into(), "0.5".into())]);
+    let half = Model::from_text("model.toml", &high_truss())
+        .with_overrides(&[("analysis.branch".into(), "0.5".into())])
+        .document();
     assert!(half.unwrap_err().render(false).contains("whole number"), "refused");
 }

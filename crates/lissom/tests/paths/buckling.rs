@@ -38,7 +38,7 @@ kind = "buckling"
 }
 
 fn find(text: &str, count: usize) -> Result<BucklingReport, BucklingRunError> {
-    buckling(&Model::from_text("column.toml", text), &[], Some(count))
+    buckling(&Model::from_text("column.toml", text), Some(count))
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn factors_that_come_several_times_are_counted_whole_wherever_the_count_cuts_the
 fn fewer_factors_than_asked_for_are_reported() {
     let text = column("vector = [-2, 0, 0]").replace("elements = 8", "elements = 1\norder = 1");
     let reported = |count: Option<usize>| {
-        let report = buckling(&Model::from_text("column.toml", &text), &[], count).unwrap();
+        let report = buckling(&Model::from_text("column.toml", &text), count).unwrap();
         assert_eq!(report.buckling.completeness, Completeness::Counted);
         (report.buckling.modes.len(), report.warnings)
     };

@@ -307,13 +307,13 @@ fn gravity_counts_as_a_load() {
 #[test]
 fn a_path_that_cannot_be_is_refused() {
     let start = |text: &str| {
-        PathSession::new(&Model::from_text("model.toml", text), &[]).map(|_| ()).unwrap_err().to_string()
+        PathSession::new(&Model::from_text("model.toml", text)).map(|_| ()).unwrap_err().to_string()
     };
     let idle = along_load(0.3, 1.0).replace("vector = [0, -1, 0]", "vector = [0, -1, 0]\nscale = \"t\"");
     assert!(start(&idle).contains("load factor has no effect"));
     let (record, report) = follow(&along_load(0.3, 1.0), &[("analysis.steps", "3"), ("analysis.end", "1e6")]);
     assert!(matches!(report.end, PathEnd::Failed(_)));
     assert_eq!(record.times.len(), 4);
-    let wrong = Model::from_text("model.toml", &along_load(0.3, 0.0)).document(&[]).unwrap_err();
+    let wrong = Model::from_text("model.toml", &along_load(0.3, 0.0)).document().unwrap_err();
     assert!(wrong.render(false).contains("load factor 0"), "{}", wrong.render(false));
 }

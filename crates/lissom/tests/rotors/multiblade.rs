@@ -136,7 +136,7 @@ fn blades_on_a_support_of_two_stiffnesses_resonate_as_coleman_says() {
                 about: Some(OperatingPoint::Rotation),
                 ..ModeRequest::default()
             };
-            let found = modes(&Model::from_text("model.toml", &text), &[], &ask)
+            let found = modes(&Model::from_text("model.toml", &text), &ask)
                 .unwrap_or_else(|error| panic!("{blades} blades at {speed}: {error}"));
             assert!(found.warnings.contains(&AnalysisWarning::AxesAtRest), "{:?}", found.warnings);
             // Two of the support, two of the lag that it feels; those that it does not feel: N - 2 of the blade alone.
@@ -171,8 +171,7 @@ fn blades_on_a_support_of_two_stiffnesses_resonate_as_coleman_says() {
 fn modes_of_two_blades_are_left_out_with_the_reason() {
     let ask = ModeRequest { count: Some(6), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     // Both blades against each other do not move the hub: that mode alone has constant coefficients.
-    let found =
-        modes(&Model::from_text("model.toml", &rotor(2, 12.0)), &[], &ask).expect("one mode is constant");
+    let found = modes(&Model::from_text("model.toml", &rotor(2, 12.0)), &ask).expect("one mode is constant");
     assert_eq!(found.modes.len(), 1, "{}", found.csv());
     let reason = "a rotor of two blades has no constant coefficients";
     assert!(
@@ -185,7 +184,7 @@ fn modes_of_two_blades_are_left_out_with_the_reason() {
     assert!(!found.warnings.iter().any(|own| own.code() == "linearization-kink"), "{:?}", found.warnings);
     // Three blades of which one has a stiffer hinge are where equal ones do: what is found there is put to the test.
     let uneven = rotor(3, 12.0).replacen("stiffness = 3.0", "stiffness = 30.0", 1);
-    let words = match modes(&Model::from_text("model.toml", &uneven), &[], &ask) {
+    let words = match modes(&Model::from_text("model.toml", &uneven), &ask) {
         Err(error) => error.to_string(),
         Ok(found) => found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
     };
@@ -195,7 +194,7 @@ fn modes_of_two_blades_are_left_out_with_the_reason() {
 #[test]
 fn a_diagram_has_the_frequencies_at_rest() {
     let ask = CampbellRequest { vary: "parameters.speed=2:12:6".parse().unwrap(), count: 8, rays: vec![1] };
-    let found = campbell(&Model::from_text("model.toml", &rotor(3, 2.0)), &[], &ask)
+    let found = campbell(&Model::from_text("model.toml", &rotor(3, 2.0)), &ask)
         .unwrap_or_else(|error| panic!("{error}"));
     for point in &found.points {
         let mut whirls = 0;

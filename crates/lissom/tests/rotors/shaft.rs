@@ -11,7 +11,7 @@ fn find(text: &str, (from, to): (f64, f64), values: usize) -> CampbellReport {
         count: 8,
         rays: vec![1],
     };
-    campbell(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+    campbell(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Rates of whirl at rest [rad/s] that go `whirl` at the speed.

@@ -112,7 +112,7 @@ fn steps_of_one_size_have_no_errors_to_control() {
     let settings: [Override; 2] = [("analysis.step", "1e-3"), ("analysis.control", "\"forces\"")]
         .map(|(path, value)| (path.into(), value.into()));
     let text = CARRIAGE.replace("output_step = 0.002\n", "");
-    let problem = match Model::from_text("carriage.toml", &text).session(&settings) {
+    let problem = match Model::from_text("carriage.toml", &text).with_overrides(&settings).session() {
         Err(SessionError::Model(report)) => report.render(false),
         _ => panic!("accepted"),
     };

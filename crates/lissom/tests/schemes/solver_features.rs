@@ -49,9 +49,11 @@ step = 2e-3
 fn end(without: &str) -> ([f64; 3], usize) {
     let overrides = [("analysis.without".to_owned(), without.to_owned())];
     let overrides = if without.is_empty() { &[][..] } else { &overrides[..] };
-    let mut session = Model::from_text("model", MODEL).session(overrides).unwrap_or_else(|e| panic!("{e}"));
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{without}: {report:?}");
+    let mut session = Model::from_text("model", MODEL)
+        .with_overrides(overrides)
+        .session()
+        .unwrap_or_else(|e| panic!("{e}"));
+    let (_, report) = session.run().unwrap().into_parts();
     (
         ["x", "y", "z"].map(|axis| session.value(&format!("end.{axis}")).unwrap()),
         report.totals.newton_iterations,
@@ -77,7 +79,9 @@ fn results_do_not_depend_on_them() {
 #[test]
 fn words_that_mean_nothing_are_refused() {
     let overrides = [("analysis.without".to_owned(), "[\"predicton\"]".to_owned())];
-    let Err(SessionError::Model(report)) = Model::from_text("model", MODEL).session(&overrides) else {
+    let Err(SessionError::Model(report)) =
+        Model::from_text("model", MODEL).with_overrides(&overrides).session()
+    else {
         panic!("there is no such mechanism")
     };
     assert!(report.render(false).contains("prediction"), "{}", report.render(false));

@@ -20,9 +20,8 @@ use lissom::{Model, Override, Record};
 
 /// What is recorded, and the iterations it took.
 fn results(model: &Model, overrides: &[Override]) -> (Record, usize) {
-    let mut session = model.session(overrides).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.stopped);
+    let mut session = model.with_overrides(overrides).session().unwrap_or_else(|error| panic!("{error}"));
+    let (record, report) = session.run().unwrap().into_parts();
     (record, report.totals.newton_iterations)
 }
 
@@ -166,9 +165,8 @@ fn cantilever() -> (ModelBuilder, lissom::builder::OutputId) {
 #[test]
 fn outputs_are_read_by_their_ids() {
     let (builder, tip) = cantilever();
-    let mut session = builder.build().unwrap().session(&[]).unwrap();
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = builder.build().unwrap().session().unwrap();
+    let record = session.run().unwrap();
     let columns = session.columns_of(tip).unwrap();
     assert_eq!(columns.len(), 3);
     let now = session.output(tip).unwrap();
@@ -183,7 +181,7 @@ fn outputs_are_read_by_their_ids() {
 fn ids_of_another_model_are_refused() {
     let (builder, _) = cantilever();
     let (_, foreign) = cantilever();
-    let session = builder.build().unwrap().session(&[]).unwrap();
+    let mut session = builder.build().unwrap().session().unwrap();
     assert!(session.output(foreign).unwrap_err().to_string().contains("another model"));
     assert!(builder.name(foreign).is_err());
 

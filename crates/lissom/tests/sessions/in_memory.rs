@@ -48,8 +48,7 @@ fn errors_shrink_with_the_step_as_the_scheme_promises() {
     for (scheme, order) in [("radau-iia", 3), ("generalized-alpha", 2)] {
         let error = |step: f64| {
             let overrides = [set("analysis.step", step), set("analysis.scheme", scheme)];
-            let (record, report) = model.session(&overrides).unwrap().record();
-            assert!(report.is_complete());
+            let record = model.with_overrides(&overrides).session().unwrap().run().unwrap();
             assert_eq!(record.times.last(), Some(&0.5));
             (record.column("weight", "x").unwrap().last().unwrap() - exact).abs()
         };
@@ -65,7 +64,7 @@ fn errors_shrink_with_the_step_as_the_scheme_promises() {
 #[test]
 fn a_session_goes_step_by_step() {
     let model = Model::from_text("spring.toml", SPRING);
-    let mut session = model.session(&[set("analysis.end", 0.055)]).unwrap();
+    let mut session = model.with_overrides(&[set("analysis.end", 0.055)]).session().unwrap();
     assert_eq!(session.columns()[1].name(), "weight.y");
     let mut steps = 0;
     while !session.is_finished() {
@@ -84,16 +83,15 @@ fn a_session_goes_step_by_step() {
 #[test]
 fn an_interrupted_session_can_go_on() {
     let model = Model::from_text("spring.toml", SPRING);
-    let whole = model.session(&[]).unwrap().record().0;
-    let mut session = model.session(&[]).unwrap();
+    let whole = model.session().unwrap().run().unwrap();
+    let mut session = model.session().unwrap();
     let mut first = lissom::Record::default();
-    let report = session.run(&mut [&mut first], &mut |progress| {
+    let report = session.run_with(&mut [&mut first], &mut |progress| {
         if progress.done == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(matches!(report.stopped, Stopped::Interrupted));
     assert_eq!((report.time, first.times.len()), (0.2, 21));
-    let (rest, report) = session.record();
-    assert!(report.is_complete() && report.totals.steps == 50);
+    let rest = session.run().unwrap();
     assert_eq!(rest.times.len(), 31);
     assert_eq!(rest.column("weight", "x").unwrap().last(), whole.column("weight", "x").unwrap().last());
 }
@@ -101,9 +99,15 @@ fn an_interrupted_session_can_go_on() {
 #[test]
 fn wrong_models_are_distinguished_from_failing_ones() {
     let model = Model::from_text("spring.toml", SPRING);
-    let error = model.session(&[set("analysis.step", 0)]).err().unwrap();
+    let error = model.with_overrides(&[set("analysis.step", 0)]).session().err().unwrap();
     assert!(matches!(error, lissom::SessionError::Model(_)), "{error}");
-    let (record, report) = model.session(&[set("analysis.max_iterations", 1)]).unwrap().record();
+    let (record, report) = model
+        .with_overrides(&[set("analysis.max_iterations", 1)])
+        .session()
+        .unwrap()
+        .run()
+        .unwrap_or_else(lissom::Results::from)
+        .into_parts();
     assert!(report.error().is_some() && !report.is_complete());
     assert_eq!(record.times, [0.0]);
 }
@@ -113,9 +117,10 @@ fn telemetry_counts_every_iteration_and_stays_short() {
     for (steps, most) in [(50, 50), (5000, 512)] {
         let step = 0.5 / f64::from(steps);
         let mut session = Model::from_text("spring", SPRING)
-            .session(&[set("analysis.step", step)])
+            .with_overrides(&[set("analysis.step", step)])
+            .session()
             .expect("the model is right");
-        let (_, report) = session.record();
+        let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
         let telemetry = session.telemetry();
         let samples = telemetry.samples();
         assert!(samples.len() <= most && samples.len() >= most / 2, "{}", samples.len());
@@ -161,14 +166,15 @@ step = 0.01
 /// A weight on a spring, at rest where the spring bears it, stays there.
 #[test]
 fn a_start_from_equilibrium_stays_at_rest() {
-    let document = Model::from_text("hanging.toml", HANGING).document(&[]).unwrap();
-    let (record, report) = Session::new(&document).unwrap().record();
+    let document = Model::from_text("hanging.toml", HANGING).document().unwrap();
+    let (record, report) =
+        Session::new(&document).unwrap().run().unwrap_or_else(lissom::Results::from).into_parts();
     assert!(report.error().is_none());
     let place = record.column("slide", "displacement").unwrap();
     assert!(place.iter().all(|x| (x - 0.0981).abs() < 1e-12), "{place:?}");
     // What nothing holds has no equilibrium.
     let free = set("springs.spring.stiffness", 0.0);
-    let document = Model::from_text("hanging.toml", HANGING).document(&[free]).unwrap();
+    let document = Model::from_text("hanging.toml", HANGING).with_overrides(&[free]).document().unwrap();
     assert!(Session::new(&document).is_err());
 }
 
@@ -180,8 +186,9 @@ fn a_displacement_is_prescribed() {
         "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"slide\"\ndisplacement = \"0.5*t^2\"\n\
          [outputs.drive]\nkind = \"reaction\"\nof = \"drive\"\n",
     );
-    let document = Model::from_text("driven.toml", &driven).document(&[]).unwrap();
-    let (record, report) = Session::new(&document).unwrap().record();
+    let document = Model::from_text("driven.toml", &driven).document().unwrap();
+    let (record, report) =
+        Session::new(&document).unwrap().run().unwrap_or_else(lissom::Results::from).into_parts();
     assert!(report.error().is_none());
     let last = record.times.len() - 1;
     assert!((record.column("slide", "displacement").unwrap()[last] - 0.125).abs() < 1e-12);
@@ -192,7 +199,7 @@ fn a_displacement_is_prescribed() {
     let wrong = driven
         .replace("prescribed_displacement", "prescribed_rotation")
         .replace("displacement =", "rotation =");
-    let document = Model::from_text("wrong.toml", &wrong).document(&[]).unwrap();
+    let document = Model::from_text("wrong.toml", &wrong).document().unwrap();
     assert!(Session::new(&document).is_err());
 }
 
@@ -228,8 +235,9 @@ scheme = "radau-iia"
 end = 1e-3
 step = 2.5e-4
 "#;
-    let document = Model::from_text("sudden.toml", model).document(&[]).unwrap();
-    let (_, report) = Session::new(&document).unwrap().record();
+    let document = Model::from_text("sudden.toml", model).document().unwrap();
+    let (_, report) =
+        Session::new(&document).unwrap().run().unwrap_or_else(lissom::Results::from).into_parts();
     assert!(report.error().is_none(), "{:?}", report.error());
     assert!(report.totals.newton_iterations < 24, "{}", report.totals.newton_iterations);
 }
@@ -256,9 +264,8 @@ end = 1
 #[test]
 fn a_model_that_names_no_step_chooses_its_own() {
     let model = Model::from_text("thrown.toml", THROWN);
-    let mut session = model.session(&[]).unwrap();
-    let (free, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
+    let mut session = model.session().unwrap();
+    let (free, report) = session.run().unwrap().into_parts();
     assert_eq!(session.simulation().settings().scheme.name, "radau-iia-9");
     assert!(free.times.len() > 5 * report.totals.steps, "every step is sampled");
     let sizes: Vec<f64> = free.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -266,17 +273,17 @@ fn a_model_that_names_no_step_chooses_its_own() {
     assert_eq!(*free.times.last().unwrap(), 1.0);
 
     let at = |path: &str, value: &str| (path.to_owned(), value.to_owned());
-    let mut fixed = model.session(&[at("analysis.step", "1e-4")]).unwrap();
-    let (fixed, _) = fixed.record();
+    let mut fixed = model.with_overrides(&[at("analysis.step", "1e-4")]).session().unwrap();
+    let fixed = fixed.run().unwrap();
     let end = |record: &Record| *record.column("bob", "z").unwrap().last().unwrap();
     assert!((end(&free) - end(&fixed)).abs() < 1e-4, "{} {}", end(&free), end(&fixed));
 
     let every = [at("analysis.relative_tolerance", "1e-6"), at("analysis.output_step", "0.25")];
-    let (even, _) = model.session(&every).unwrap().record();
+    let even = model.with_overrides(&every).session().unwrap().run().unwrap();
     assert_eq!(even.times, [0.0, 0.25, 0.5, 0.75, 1.0]);
     assert!((end(&even) - end(&fixed)).abs() < 1e-5, "{} {}", end(&even), end(&fixed));
     let wrong = [at("analysis.step", "1e-3"), at("analysis.output_step", "0.25")];
-    let reported = model.document(&wrong).unwrap_err().render(false);
+    let reported = model.with_overrides(&wrong).document().unwrap_err().render(false);
     assert!(reported.contains("relative_tolerance"), "{reported}");
 }
 
@@ -285,15 +292,15 @@ fn a_session_is_driven_to_any_time() {
     let step = [("analysis.step".to_owned(), "0.01".to_owned())];
     let control = [("analysis.relative_tolerance".to_owned(), "1e-6".to_owned())];
     for overrides in [&step, &control] {
-        let mut session = Model::from_text("thrown.toml", THROWN).session(overrides).unwrap();
+        let mut session =
+            Model::from_text("thrown.toml", THROWN).with_overrides(overrides).session().unwrap();
         for time in [0.013, 0.013, 0.5, 0.77] {
             session.step_to(time).unwrap();
             assert!((session.progress().time - time).abs() < 1e-14, "{overrides:?} {time}");
         }
         session.step_to(0.1).unwrap();
         assert!((session.progress().time - 0.77).abs() < 1e-14, "time does not go back");
-        let (record, report) = session.record();
-        assert!(report.is_complete());
+        let record = session.run().unwrap();
         assert!((record.times[0] - 0.77).abs() < 1e-14 && *record.times.last().unwrap() == 1.0);
     }
 }
@@ -303,7 +310,8 @@ fn a_very_short_step_disturbs_nothing() {
     for scheme in ["\"generalized-alpha\"", "\"hht\"", "\"radau-iia\""] {
         let overrides = [set("analysis.step", 1e-3), set("analysis.scheme", scheme)];
         let end = |stops: &[f64]| {
-            let mut session = Model::from_text("thrown.toml", THROWN).session(&overrides).unwrap();
+            let mut session =
+                Model::from_text("thrown.toml", THROWN).with_overrides(&overrides).session().unwrap();
             for &time in stops {
                 session.step_to(time).unwrap();
             }

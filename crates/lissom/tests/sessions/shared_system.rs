@@ -45,7 +45,7 @@ fn angle_after(prepared: &Prepared, pendulum: &Pendulum, rate: f64) -> f64 {
 #[test]
 fn threads_share_a_system_and_do_not_disturb_each_other() {
     let pendulum = pendulum(Dynamics::new(1.0).step(1e-2));
-    let prepared = pendulum.model.prepare(&[]).unwrap();
+    let prepared = pendulum.model.prepare().unwrap();
     let rates = [0.1, 0.7, 1.3, 2.9];
     let alone: Vec<f64> = rates.iter().map(|&rate| angle_after(&prepared, &pendulum, rate)).collect();
     let (prepared, pendulum) = (&prepared, &pendulum);
@@ -62,7 +62,7 @@ fn threads_share_a_system_and_do_not_disturb_each_other() {
 fn a_copy_goes_on_to_the_same_bits_and_apart() {
     for analysis in [Dynamics::new(1.0).step(1e-2), Dynamics::new(1.0).relative_tolerance(1e-6)] {
         let pendulum = pendulum(analysis);
-        let mut first = pendulum.model.session(&[]).unwrap();
+        let mut first = pendulum.model.session().unwrap();
         first.set(pendulum.motor, 2.0).unwrap();
         first.step_to(0.3).unwrap();
         let mut copy = first.try_clone().unwrap();
@@ -81,7 +81,7 @@ fn a_copy_goes_on_to_the_same_bits_and_apart() {
 fn a_state_taken_out_goes_in_again() {
     for analysis in [Dynamics::new(1.0).step(1e-3), Dynamics::new(1.0).relative_tolerance(1e-9)] {
         let pendulum = pendulum(analysis);
-        let prepared = pendulum.model.prepare(&[]).unwrap();
+        let prepared = pendulum.model.prepare().unwrap();
         let mut whole = prepared.session().unwrap();
         whole.set(pendulum.motor, 2.0).unwrap();
         whole.step_to(0.4).unwrap();
@@ -91,7 +91,8 @@ fn a_state_taken_out_goes_in_again() {
         for session in [&mut whole, &mut rest] {
             session.step_to(1.0).unwrap();
         }
-        let [angle, again] = [&whole, &rest].map(|session| session.output(pendulum.angle).unwrap()[0]);
+        let [angle, again] =
+            [&mut whole, &mut rest].map(|session| session.output(pendulum.angle).unwrap()[0]);
         assert!((angle - again).abs() < 1e-6 * angle.abs(), "{angle} {again}");
     }
 }
@@ -99,7 +100,7 @@ fn a_state_taken_out_goes_in_again() {
 #[test]
 fn states_that_do_not_fit_are_refused() {
     let pendulum = pendulum(Dynamics::new(1.0).step(1e-2));
-    let prepared = pendulum.model.prepare(&[]).unwrap();
+    let prepared = pendulum.model.prepare().unwrap();
     let refused = |change: &dyn Fn(&mut lissom::core::system::State)| {
         let mut state = prepared.state().clone();
         change(&mut state);

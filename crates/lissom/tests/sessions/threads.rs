@@ -28,7 +28,7 @@ fn chain() -> String {
 #[test]
 fn results_are_the_same_to_the_last_bit() {
     let model = Model::from_text("chain", &chain());
-    let document = model.document(&[]).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let document = model.document().unwrap_or_else(|report| panic!("{}", report.render(false)));
     let places = [1, 2, 3].map(|threads| {
         let mut lowered = lower(&document).unwrap();
         lowered.settings.threads = threads;

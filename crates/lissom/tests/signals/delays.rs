@@ -422,9 +422,9 @@ fn analyses_without_a_past_refuse_delays() {
     }
     let model = Model::from_text("model.toml", &text);
     let request = ModeRequest { about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
-    let message = modes(&model, &[], &request).expect_err("it is delayed").to_string();
+    let message = modes(&model, &request).expect_err("it is delayed").to_string();
     assert!(message.contains("the signal `late` is delayed"), "{message}");
     let target = "rail.displacement".parse().expect("a target");
-    let refused = gradient(&model, &[], &target, &["signals.late.delay".to_owned()], true);
+    let refused = gradient(&model, &target, &["signals.late.delay".to_owned()], true);
     assert!(matches!(refused, Err(GradientError::Feedback)), "{refused:?}");
 }

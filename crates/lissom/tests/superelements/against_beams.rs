@@ -31,7 +31,7 @@ fn reduced_blade(blade: &str, modes: usize, corrections: bool) -> ReduceReport {
         name: Some("blade".to_owned()),
         ..request(&["blade.start", "blade.end"], modes)
     };
-    reduce(&Model::from_text("model.toml", &format!("{blade}{MODES}")), &[], &request)
+    reduce(&Model::from_text("model.toml", &format!("{blade}{MODES}")), &request)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -134,9 +134,8 @@ fn an_axial_jolt_does_not_shake_a_blade_across() {
         let report = reduced_blade(&text, modes, corrections);
         let [exact, own] = models(&text, &report, "", &rest);
         let exact = ran(&exact, &[]);
-        let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
-        let (found, ended) = session.record();
-        assert!(ended.is_complete(), "{:?}", ended.error());
+        let mut session = own.session().unwrap_or_else(|error| panic!("{error}"));
+        let found = session.run().unwrap();
         let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         assert_eq!(codes.contains(&"modes-left-out"), modes == 0, "{modes} modes: {codes:?}");
         for (component, allowed) in [("f3", 2.5), ("m2", 2.5), ("f1", 1.05)] {
@@ -206,9 +205,8 @@ fn a_hard_stop_is_that_of_the_beam_to_second_order() {
             let rest = on_a_hub('x', &stopped_from(speed), speed, "steady_rotation = true\n", 1.5);
             let [beam, own] = models(&text, &report, "", &rest);
             let exact = ran(&beam, &[]);
-            let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
-            let (found, ended) = session.record();
-            assert!(ended.is_complete(), "{modes} modes, {speed} rad/s: {:?}", ended.error());
+            let mut session = own.session().unwrap_or_else(|error| panic!("{error}"));
+            let found = session.run().unwrap();
             let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
             assert_eq!(
                 codes.contains(&"beyond-linear"),
@@ -237,8 +235,8 @@ fn a_blade_bent_beyond_its_matrices_is_rejected() {
     let report = reduced_blade(&text, 10, true);
     let rest = on_a_hub('x', &stopped_from(6.0), 6.0, "steady_rotation = true\n", 0.7);
     let [_, own] = models(&text, &report, "", &rest);
-    let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
-    let (found, ended) = session.record();
+    let mut session = own.session().unwrap_or_else(|error| panic!("{error}"));
+    let (found, ended) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     let message = ended.error().map(ToString::to_string).unwrap_or_default();
     assert!(message.contains("kinetic energy is no longer positive"), "{message}");
     assert!(message.contains("--modes-alone"), "{message}");
@@ -272,7 +270,7 @@ fn geometric_matrices_of_the_earlier_form_are_left_out() {
             *file = format!("%%MatrixMarket matrix array real general\n{} {size}\n{zeros}", 13 * size + 6);
         }
     }
-    let document = using(&report, MODES).document(&[]).expect("a good model");
+    let document = using(&report, MODES).document().expect("a good model");
     assert!(document.superelements[0].matrices.geometric.is_none());
     let messages: Vec<String> = document.warnings.problems().map(|problem| problem.message.clone()).collect();
     assert!(messages.iter().any(|words| words.contains("counts loads twice")), "{messages:?}");

@@ -12,8 +12,8 @@ const INTERFACES: [(&str, f64); 3] = [("bar_start", 0.0), ("bar_0_5", 0.5), ("ba
 fn flying(floating: &str, scheme: &str, step: f64, end: f64) -> Model {
     let soft = beam(MODES).replace("[1e6, 4e5, 4e5, 100, 200, 300]", "[3e4, 4e4, 4e4, 20, 30, 40]");
     let request = ReduceRequest { corrections: false, ..request(&["bar.start", "bar@0.5", "bar.end"], 2) };
-    let report = reduce(&Model::from_text("model.toml", &soft), &[], &request)
-        .unwrap_or_else(|error| panic!("{error}"));
+    let report =
+        reduce(&Model::from_text("model.toml", &soft), &request).unwrap_or_else(|error| panic!("{error}"));
     // Matrices of second order belong to the interface that was held.
     let report = if floating == INTERFACES[0].0 { report } else { bare(&report) };
     let (_, table) = report.files.last().expect("the table");

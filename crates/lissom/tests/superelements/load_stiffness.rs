@@ -5,9 +5,8 @@ use super::*;
 /// A beam that spins about its end under its weight, damped until it is at rest: the deflection of the end, and the warnings.
 fn spinning(model: &Model, speed: f64) -> (f64, Vec<(String, f64)>) {
     let overrides = [set("parameters.speed", &speed.to_string())];
-    let mut session = model.session(&overrides).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
+    let mut session = model.with_overrides(&overrides).session().unwrap_or_else(|error| panic!("{error}"));
+    let record = session.run().unwrap();
     let warnings = session.warnings().filter_map(|warning| match warning {
         lissom_core::errors::Warning::LoadStiffness { largest, .. } => {
             Some((warning.code().to_owned(), 0.5 * largest))
@@ -70,12 +69,12 @@ fn stiffness_that_rotation_changes_is_reported() {
 #[test]
 fn stiffness_that_axial_forces_change_is_reported() {
     let (exact, model) = slider_cranks();
-    let model = model.without(vec!["superelements.rod.geometric".to_owned()]);
+    let model = model.without("superelements.rod.geometric");
     for speed in [100, 250, 500, 1000] {
         let overrides = [set("parameters.speed", &format!("{speed}*2*pi/60"))];
         let (error, _) = rod_error(&exact, &model, &overrides);
-        let mut session = model.session(&overrides).expect("a good model");
-        assert!(session.record().1.is_complete());
+        let mut session = model.with_overrides(&overrides).session().expect("a good model");
+        assert!(session.run().is_ok());
         let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         match codes.as_slice() {
             [] => assert!(error < 0.005, "{speed} 1/min: {error} without a warning"),
@@ -123,7 +122,7 @@ fn frequencies_in_rotation_are_those_of_the_beam() {
                 ..ModeRequest::default()
             };
             let of = |model: &Model| -> Vec<f64> {
-                let found = modes(model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
+                let found = modes(model, &request).unwrap_or_else(|error| panic!("{error}"));
                 found.modes.iter().map(|mode| mode.frequency).collect()
             };
             let text = beam(MODES).replace(MODES, "");
@@ -147,8 +146,8 @@ fn geometric_stiffness_of_the_rod_is_that_of_the_beam() {
         let overrides = [set("parameters.speed", &format!("{speed}*2*pi/60"))];
         let (error, _) = rod_error(&exact, &model, &overrides);
         assert!(error < allowed, "{speed} 1/min: {error}");
-        let mut session = model.session(&overrides).expect("a good model");
-        assert!(session.record().1.is_complete());
+        let mut session = model.with_overrides(&overrides).session().expect("a good model");
+        assert!(session.run().is_ok());
         assert_eq!(session.warnings().count(), 0, "{speed} 1/min");
     }
 }
@@ -191,7 +190,7 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
             }
             *text = text.replace(change.0, change.1);
         }
-        let text = using(&mixed, MODES).document(&[]).expect_err("does not match").render(false);
+        let text = using(&mixed, MODES).document().expect_err("does not match").render(false);
         text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let none = ("no such words", "");

@@ -39,7 +39,7 @@ order = 3
 const MODES: &str = "[analysis]\nkind = \"modes\"\n";
 
 fn try_reduce(text: &str, interfaces: &[&str], modes: usize) -> Result<ReduceReport, ReduceError> {
-    reduce(&Model::from_text("model.toml", text), &[], &request(interfaces, modes))
+    reduce(&Model::from_text("model.toml", text), &request(interfaces, modes))
 }
 
 fn request(interfaces: &[&str], modes: usize) -> ReduceRequest {
@@ -60,7 +60,7 @@ fn reduced(text: &str, interfaces: &[&str], modes: usize) -> ReduceReport {
 /// Reduced to static shapes and modes, without what makes up for those omitted.
 fn reduced_to_modes(text: &str, interfaces: &[&str], modes: usize) -> ReduceReport {
     let request = ReduceRequest { corrections: false, ..request(interfaces, modes) };
-    reduce(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+    reduce(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The model that uses a reduced part, with the files of its matrices.
@@ -73,7 +73,7 @@ fn using(report: &ReduceReport, rest: &str) -> Model {
 fn frequencies(model: &Model, count: usize) -> Vec<f64> {
     let request =
         ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
-    let found = modes(model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
+    let found = modes(model, &request).unwrap_or_else(|error| panic!("{error}"));
     found.modes.iter().map(|mode| mode.frequency).collect()
 }
 
@@ -82,10 +82,8 @@ fn clamp(node: &str) -> String {
 }
 
 fn ran(model: &Model, overrides: &[(String, String)]) -> lissom::Record {
-    let mut session = model.session(overrides).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
-    record
+    let mut session = model.with_overrides(overrides).session().unwrap_or_else(|error| panic!("{error}"));
+    session.run().unwrap().into_record()
 }
 
 /// Frequencies of the cantilever and of the free beam come nearer to those of the beam with every mode.
@@ -259,7 +257,7 @@ fn a_moved_arm_follows_the_beam_with_all_schemes() {
         assert!(error < 0.05 * bent.abs(), "{scheme}: {error:e} of {bent:e}");
     }
     let controlled = [set("analysis.relative_tolerance", "1e-6")];
-    let model = model.without(vec!["analysis.step".to_owned()]);
+    let model = model.without("analysis.step");
     let error = difference(&ran(&model, &controlled));
     assert!(error < 0.05 * bent.abs(), "controlled: {error:e} of {bent:e}");
 }
@@ -268,8 +266,7 @@ fn a_moved_arm_follows_the_beam_with_all_schemes() {
 #[test]
 fn errors_follow_the_tolerance() {
     let report = reduced(&beam(MODES), &["bar.start", "bar.end"], 4);
-    let model =
-        using(&report, &arm("part.bar_start", "part.bar_end")).without(vec!["analysis.step".to_owned()]);
+    let model = using(&report, &arm("part.bar_start", "part.bar_end")).without("analysis.step");
     let end = |tolerance: &str| {
         let record = ran(&model, &[set("analysis.relative_tolerance", tolerance)]);
         ["x", "y"].map(|component| last(&record, "tip", component))
@@ -288,7 +285,7 @@ fn a_snapshot_goes_on_to_the_last_bit() {
     let model = using(&report, &arm("part.bar_start", "part.bar_end"));
     for scheme in SCHEMES {
         let overrides = [set("analysis.scheme", scheme)];
-        let mut session = model.session(&overrides).expect("a good model");
+        let mut session = model.with_overrides(&overrides).session().expect("a good model");
         session.step_to(0.05).expect("steps");
         let snapshot = session.snapshot().to_bytes();
         let go_on = |session: &mut lissom::Session| {
@@ -298,7 +295,7 @@ fn a_snapshot_goes_on_to_the_last_bit() {
             values
         };
         let straight = go_on(&mut session);
-        let mut other = model.session(&overrides).expect("a good model");
+        let mut other = model.with_overrides(&overrides).session().expect("a good model");
         other
             .restore(&lissom::SessionSnapshot::from_bytes(&snapshot).expect("a snapshot"))
             .expect("of this model");
@@ -340,7 +337,7 @@ fn a_reduced_part_can_be_reduced_again() {
         about: OperatingPoint::Static,
         name: Some("again".to_owned()),
     };
-    let again = reduce(&using(&first, MODES), &[], &request).unwrap_or_else(|error| panic!("{error}"));
+    let again = reduce(&using(&first, MODES), &request).unwrap_or_else(|error| panic!("{error}"));
     let found = frequencies(&using(&again, &format!("{}{MODES}", clamp("again.part_bar_start"))), 3);
     let exact =
         frequencies(&Model::from_text("model.toml", &beam(&format!("{}{MODES}", clamp("bar.start")))), 3);
@@ -402,14 +399,14 @@ fn files_are_read_as_they_were_written() {
     };
     let kept: Vec<&str> = table.lines().filter(|line| !line.contains(".mtx")).collect();
     let archived = format!("{}\nmatrices = \"part.npz\"\n", kept.join("\n"));
-    let one = read("one.toml", table).document(&[]).expect("a good model");
-    let other = read("other.toml", &archived).document(&[]).expect("a good model");
+    let one = read("one.toml", table).document().expect("a good model");
+    let other = read("other.toml", &archived).document().expect("a good model");
     assert_eq!(one.superelements[0].matrices, other.superelements[0].matrices);
     // Who has the texts needs no archive.
     let model = read("other.toml", &archived);
-    model.document(&[]).expect("a good model");
+    model.document().expect("a good model");
     let elsewhere = Model::from_text("other.toml", model.text()).with_included(model.included());
-    let again = elsewhere.document(&[]).expect("texts are enough");
+    let again = elsewhere.document().expect("texts are enough");
     assert_eq!(one.superelements[0].matrices, again.superelements[0].matrices);
     for (from, to, words) in [
         ("part.npz", "none.npz", "cannot be read"),
@@ -423,7 +420,7 @@ fn files_are_read_as_they_were_written() {
         let text = format!("{archived}{rest}").replace(from, to);
         let path = folder.join("wrong.toml");
         std::fs::write(&path, text).expect("a file");
-        let message = Model::read(&path).expect("a text").document(&[]);
+        let message = Model::read(&path).expect("a text").document();
         let message = message.expect_err(words).render(false).replace('│', " ");
         assert!(
             message.split_whitespace().collect::<Vec<_>>().join(" ").contains(words),
@@ -438,7 +435,7 @@ fn files_are_read_as_they_were_written() {
 fn no_description_of_rigid_bodies_leaves_it_out_unseen() {
     let document = Model::read(std::path::Path::new(&example("slider-crank-elastic.toml")))
         .expect("a text")
-        .document(&[])
+        .document()
         .expect("a good model");
     let message = lissom::import::from_model(&document).expect_err("flexible").to_string();
     assert!(message.contains("superelement `rod` is flexible"), "{message}");
@@ -529,10 +526,10 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
         name: Some("rod".to_owned()),
     };
     let rod = Model::read(&path("connecting-rod.toml")).expect("a text");
-    let report = reduce(&rod, &[], &request).unwrap_or_else(|error| panic!("{error}"));
+    let report = reduce(&rod, &request).unwrap_or_else(|error| panic!("{error}"));
     let (exact, model) = slider_cranks();
-    let remade = using(&report, MODES).document(&[]).expect("a good model");
-    let kept = model.document(&[]).expect("a good model");
+    let remade = using(&report, MODES).document().expect("a good model");
+    let kept = model.document().expect("a good model");
     let difference = &remade.superelements[0].matrices.stiffness - &kept.superelements[0].matrices.stiffness;
     assert!(difference.amax() < 1e-8 * kept.superelements[0].matrices.stiffness.amax());
     let [remade, kept] = [remade, kept].map(|document| {
@@ -554,9 +551,8 @@ fn leaving_the_linear_range_is_a_warning() {
          [analysis]\nkind = \"statics\"\nsteps = 2\n",
         clamp("part.bar_start")
     );
-    let mut session = using(&report, &rest).session(&[]).expect("a good model");
-    let (_, found) = session.record();
-    assert!(found.is_complete());
+    let mut session = using(&report, &rest).session().expect("a good model");
+    session.run().unwrap();
     let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
     assert_eq!(codes, ["beyond-linear"]);
 }
@@ -572,9 +568,8 @@ fn turning_fast_is_a_warning() {
              [initial]\nangular_velocity = [0, 0, {speed}]\nsteady_rotation = true\n\
              [analysis]\nkind = \"dynamics\"\nend = 0.05\nstep = 1e-3\n"
         );
-        let mut session = using(&bare(&report), &rest).session(&[]).expect("a good model");
-        let (_, found) = session.record();
-        assert!(found.is_complete());
+        let mut session = using(&bare(&report), &rest).session().expect("a good model");
+        session.run().unwrap();
         let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         assert_eq!(codes, expected, "{speed} rad/s");
     }

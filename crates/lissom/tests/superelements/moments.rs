@@ -6,9 +6,8 @@ use super::*;
 fn bent(model: &Model, [y, z, torque]: [f64; 3]) -> ([f64; 6], Vec<(String, f64)>) {
     let set = |name: &str, value: f64| set(&format!("parameters.{name}"), &format!("{value:?}"));
     let overrides = [set("y", y), set("z", z), set("torque", torque)];
-    let mut session = model.session(&overrides).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
+    let mut session = model.with_overrides(&overrides).session().unwrap_or_else(|error| panic!("{error}"));
+    let record = session.run().unwrap();
     let of = |output: &str, component: &str| last(&record, output, component);
     let found = ["u1", "u2", "u3"].map(|component| of("end", component));
     let turned = ["r1", "r2", "r3"].map(|component| of("turn", component));

@@ -7,7 +7,7 @@ use super::*;
 /// A cantilever under a tip force that is reduced to two modes, with a recovery matrix.
 fn held(rest: &str, recovery: Option<&str>) -> Model {
     let request = ReduceRequest { corrections: false, ..request(&["bar.start", "bar.end"], 2) };
-    let report = reduce(&Model::from_text("model.toml", &beam(MODES)), &[], &request)
+    let report = reduce(&Model::from_text("model.toml", &beam(MODES)), &request)
         .unwrap_or_else(|error| panic!("{error}"));
     let (_, table) = report.files.last().expect("the table");
     let mut texts: BTreeMap<String, String> = report.files.iter().cloned().collect();
@@ -108,7 +108,7 @@ fn recovery_that_does_not_fit_is_refused() {
             clamp("part.bar_start")
         );
         let model = held(&rest, recovery);
-        let text = match model.session(&[]) {
+        let text = match model.session() {
             Err(lissom::SessionError::Model(report)) => report.render(false),
             Err(other) => other.to_string(),
             Ok(_) => String::new(),

@@ -6,11 +6,10 @@ use lissom::{Model, Record};
 use super::runs;
 
 pub(crate) fn start(text: &str, overrides: &[(&str, &str)]) -> Result<PathSession, String> {
-    PathSession::new(&Model::from_text("model.toml", text), &runs::overrides(overrides)).map_err(|error| {
-        match error {
-            PathSessionError::Model(report) => report.render(false),
-            other => other.to_string(),
-        }
+    let model = Model::from_text("model.toml", text).with_overrides(&runs::overrides(overrides));
+    PathSession::new(&model).map_err(|error| match error {
+        PathSessionError::Model(report) => report.render(false),
+        other => other.to_string(),
     })
 }
 

@@ -4,7 +4,7 @@ use lissom::{Model, SessionError};
 
 /// Why a model is rejected.
 pub(crate) fn refused(text: &str) -> String {
-    match Model::from_text("model.toml", text).session(&[]) {
+    match Model::from_text("model.toml", text).session() {
         Ok(_) => panic!("{text} is no good model"),
         Err(SessionError::Model(report)) => report.render(false),
         Err(error) => error.to_string(),

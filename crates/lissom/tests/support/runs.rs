@@ -18,7 +18,7 @@ pub(crate) fn overrides(set: &[(&str, &str)]) -> Vec<Override> {
 
 /// A session at its start.
 pub(crate) fn session(text: &str, set: &[(&str, &str)]) -> Session {
-    match Model::from_text("model.toml", text).session(&overrides(set)) {
+    match Model::from_text("model.toml", text).with_overrides(&overrides(set)).session() {
         Ok(session) => session,
         Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
         Err(error) => panic!("{error}"),
@@ -27,9 +27,7 @@ pub(crate) fn session(text: &str, set: &[(&str, &str)]) -> Session {
 
 /// The rows of a session that reaches its end.
 pub(crate) fn record(session: &mut Session) -> Record {
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
-    record
+    session.run().unwrap_or_else(|error| panic!("{error:?}")).into_record()
 }
 
 /// The rows of a model that reaches its end.
@@ -62,7 +60,7 @@ pub(crate) fn goes_on_from_a_snapshot(text: &str, [middle, end]: [f64; 2]) {
     let model = Model::from_text("model.toml", text);
     for scheme in SCHEMES {
         let overrides = [set("analysis.scheme", scheme)];
-        let mut session = model.session(&overrides).unwrap();
+        let mut session = model.with_overrides(&overrides).session().unwrap();
         session.step_to(middle).unwrap();
         let snapshot = session.snapshot().to_bytes();
         let go_on = |session: &mut Session| {
@@ -72,7 +70,7 @@ pub(crate) fn goes_on_from_a_snapshot(text: &str, [middle, end]: [f64; 2]) {
             values
         };
         let straight = go_on(&mut session);
-        let mut other = model.session(&overrides).unwrap();
+        let mut other = model.with_overrides(&overrides).session().unwrap();
         other.restore(&lissom::SessionSnapshot::from_bytes(&snapshot).unwrap()).unwrap();
         assert_eq!(go_on(&mut other), straight, "{scheme}");
     }

@@ -7,7 +7,7 @@ use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 
 fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
     let request = ModeRequest { count: Some(count), about: Some(about), ..ModeRequest::default() };
-    modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+    modes(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// u, w, θ, N, M, V of a bar in its plane: along it, across it, rotation, and the forces that belong to them.

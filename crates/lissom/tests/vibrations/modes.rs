@@ -16,7 +16,7 @@ fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
 
 fn try_find(text: &str, about: OperatingPoint, count: usize) -> Result<ModeReport, ModesError> {
     let request = ModeRequest { count: Some(count), about: Some(about), ..ModeRequest::default() };
-    modes(&Model::from_text("model.toml", text), &[], &request)
+    modes(&Model::from_text("model.toml", text), &request)
 }
 
 fn frequencies(report: &ModeReport) -> Vec<f64> {
@@ -387,7 +387,7 @@ fn modes_near_a_frequency_are_those_of_the_whole_list() {
         shift: Some(all[14] * 1.001),
         ..ModeRequest::default()
     };
-    let some = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
+    let some = modes(&Model::from_text("model.toml", &text), &request).unwrap();
     assert_eq!(some.completeness, Completeness::Counted);
     let mut nearest = all.clone();
     nearest.sort_by(|a, b| {
@@ -498,7 +498,7 @@ fn a_rotor_that_turns_freely_has_a_rigid_mode_and_all_others() {
             "mass = 1\ninertia = [0.1, 0.1, 0.1]",
             &format!("mass = {mass:?}\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}]"),
         );
-        let found = modes(&Model::from_text("model.toml", &text), &[], &ModeRequest::default())
+        let found = modes(&Model::from_text("model.toml", &text), &ModeRequest::default())
             .unwrap_or_else(|error| panic!("hub of {mass} kg and {inertia} kg m²: {error}"));
         let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency).collect();
         assert_eq!(frequencies.len(), 3, "hub of {mass} kg and {inertia} kg m²: {frequencies:?}");
@@ -545,7 +545,7 @@ fn fewer_modes_than_asked_for_are_reported() {
     let reported = |count: Option<usize>| {
         let request =
             ModeRequest { count, about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
-        let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
+        let report = modes(&Model::from_text("model.toml", &text), &request).unwrap();
         (report.modes.len(), report.warnings)
     };
     let fewer = AnalysisWarning::FewerModes { wanted: 50, evidence: "the model has", found: 6 };

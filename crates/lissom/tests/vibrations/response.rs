@@ -25,7 +25,7 @@ fn request(inputs: &[&str], outputs: &[&str], from: f64, to: f64) -> ResponseReq
 }
 
 fn find(text: &str, request: &ResponseRequest) -> ResponseReport {
-    response(&Model::from_text("model.toml", text), &[], request).unwrap_or_else(|error| panic!("{error}"))
+    response(&Model::from_text("model.toml", text), request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Compares every row of `csv` with `exact`, as a reader of the file would.
@@ -394,9 +394,8 @@ fn feedback_and_states_respond_as_in_steps_over_time() {
         .replace("command - pivot.angle", "u - pivot.angle")
         .replace("[signals]", &format!("[signals]\nu = \"{small}*sin({TAU}*{frequency}*t)\""));
     let driven = Model::from_text("driven.toml", &driven);
-    let mut session = driven.session(&[]).unwrap_or_else(|error| panic!("{error}"));
-    let (record, report) = session.record();
-    assert!(report.is_complete());
+    let mut session = driven.session().unwrap_or_else(|error| panic!("{error}"));
+    let record = session.run().unwrap();
     for (k, (output, component)) in
         [("angle", "angle"), ("torque", "value"), ("arm", "u1")].into_iter().enumerate()
     {
@@ -418,7 +417,7 @@ fn feedback_and_states_respond_as_in_steps_over_time() {
     // Its modes: the characteristic polynomial of the loop.
     let request =
         ModeRequest { count: Some(5), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
-    let report = modes(&model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
+    let report = modes(&model, &request).unwrap_or_else(|error| panic!("{error}"));
     let inertia = 0.2 + 2.0 * 0.25;
     let gravity = gravity_stiffness();
     for mode in &report.modes {
@@ -473,7 +472,7 @@ fn matrices_in_the_files_have_the_response() {
         let found = find(&text, &ask);
         let asked =
             LinearizeRequest { about: OperatingPoint::Static, inputs: ask.inputs, outputs: ask.outputs };
-        let linear = linearize(&Model::from_text("model.toml", &text), &[], &asked)
+        let linear = linearize(&Model::from_text("model.toml", &text), &asked)
             .unwrap_or_else(|error| panic!("{error}"));
         let [m, d, k, g] = ["M.mtx", "D.mtx", "K.mtx", "G.mtx"].map(|name| complex(&matrix(&linear, name)));
         let right = complex(&matrix(&linear, "inputs.mtx"));
@@ -555,7 +554,7 @@ end = 1
 #[test]
 fn questions_without_sense_are_refused() {
     let ask = |inputs: &[&str], outputs: &[&str], from: f64, to: f64| {
-        response(&Model::from_text("model.toml", OSCILLATOR), &[], &request(inputs, outputs, from, to))
+        response(&Model::from_text("model.toml", OSCILLATOR), &request(inputs, outputs, from, to))
             .expect_err("it has no answer")
     };
     for (error, words) in [
@@ -568,17 +567,16 @@ fn questions_without_sense_are_refused() {
     }
     let idle = OSCILLATOR.replace("scale = \"50*command^2\"", "");
     let error =
-        response(&Model::from_text("model.toml", &idle), &[], &request(&["command"], &["place"], 0.1, 1.0));
+        response(&Model::from_text("model.toml", &idle), &request(&["command"], &["place"], 0.1, 1.0));
     assert!(matches!(error, Err(FrequencyError::Port(_))));
     let work = OSCILLATOR.replace("[outputs]", "[outputs]\nall = { kind = \"work\", of = \"push\" }");
-    let error =
-        response(&Model::from_text("model.toml", &work), &[], &request(&["push"], &["all"], 0.1, 1.0));
+    let error = response(&Model::from_text("model.toml", &work), &request(&["push"], &["all"], 0.1, 1.0));
     assert!(error.expect_err("works are accumulated").to_string().contains("no linear response"));
     let sampled = CONTROLLED.replace(
         "torque = \"30*(command - pivot.angle) - 2*pivot.rate + 8*wound\"",
         "torque = { value = \"-pivot.angle\", sample = 0.1 }",
     );
     let error =
-        response(&Model::from_text("model.toml", &sampled), &[], &request(&["motor"], &["angle"], 0.1, 1.0));
+        response(&Model::from_text("model.toml", &sampled), &request(&["motor"], &["angle"], 0.1, 1.0));
     assert!(error.expect_err("it is sampled").to_string().contains("sampled"));
 }

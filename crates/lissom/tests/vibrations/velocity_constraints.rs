@@ -16,7 +16,7 @@ const GRAVITY: f64 = 9.81;
 fn find(text: &str, count: usize) -> ModeReport {
     let request =
         ModeRequest { count: Some(count), about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
-    modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+    modes(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A ball on a plane, held by springs along x and y at its centre.
@@ -89,7 +89,7 @@ fn a_ball_on_springs_responds_as_a_heavier_mass() {
         to: 1.2,
         points: 20,
     };
-    let report = response(&Model::from_text("model.toml", &ball(push)), &[], &request)
+    let report = response(&Model::from_text("model.toml", &ball(push)), &request)
         .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.transfers.len(), 2);
     for (k, frequency) in report.frequencies.iter().enumerate() {
@@ -200,7 +200,7 @@ fn modes_of_an_uneven_wheel_are_refused() {
     let text = disc(8.0).replace("\"1.7*0.2^2/4\", \"1.7*0.2^2/2\", \"1.7*0.2^2/4\"", "0.012, 0.03, 0.025");
     let request =
         ModeRequest { count: Some(6), about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
-    match modes(&Model::from_text("model.toml", &text), &[], &request) {
+    match modes(&Model::from_text("model.toml", &text), &request) {
         Err(error) => assert!(error.to_string().contains("change"), "{error}"),
         Ok(report) => {
             assert!(report.modes.iter().all(|mode| mode.kind == ModeKind::Rigid), "{:?}", report.modes);
@@ -282,7 +282,7 @@ step = 1e-2
 #[test]
 fn paths_reject_constraints_between_velocities() {
     let path = ball("").replace("kind = \"dynamics\"\nend = 1\nstep = 1e-2", "kind = \"path\"");
-    let error = lissom::path::PathSession::new(&Model::from_text("model.toml", &path), &[]);
+    let error = lissom::path::PathSession::new(&Model::from_text("model.toml", &path));
     let words = error.err().map(|error| error.to_string()).unwrap_or_default();
     assert!(words.contains("equilibrium path has no velocities") && words.contains("floor"), "{words}");
 }
@@ -306,7 +306,7 @@ fn first_order_equations_contain_the_force_of_a_latch() {
             inputs: vec!["push".to_owned()],
             outputs: vec!["hook.force".to_owned()],
         };
-        let report = linearize(&Model::from_text("model.toml", &text), &[], &request)
+        let report = linearize(&Model::from_text("model.toml", &text), &request)
             .unwrap_or_else(|error| panic!("{error}"));
         let equations = report.state_space.unwrap_or_else(|error| panic!("{held}: {error}"));
         assert_eq!(equations.a.nrows(), states, "{held}");

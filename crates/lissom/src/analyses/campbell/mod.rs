@@ -17,7 +17,7 @@ use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::analysis::counts;
 use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Modes with a smaller likeness of shapes do not belong to one line.
 const ALIKE: f64 = 0.3;
@@ -209,34 +209,29 @@ impl Analysis for CampbellRequest {
     type Report = CampbellReport;
     type Error = CampbellError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<CampbellReport, CampbellError> {
-        campbell(model, overrides, self)
+    fn compute(&self, model: &Model) -> Result<CampbellReport, CampbellError> {
+        campbell(model, self)
     }
 }
 
 /// The search, one value after another.
 struct Search<'s> {
     model: &'s Model,
-    overrides: &'s [Override],
     request: &'s CampbellRequest,
     warnings: Vec<AnalysisWarning>,
 }
 
-/// Campbell diagram of `model` with `overrides`.
+/// Campbell diagram of `model`.
 ///
 /// # Errors
 /// If the model is invalid, or has no modes at a value.
-pub fn campbell(
-    model: &Model,
-    overrides: &[Override],
-    request: &CampbellRequest,
-) -> Result<CampbellReport, CampbellError> {
+pub fn campbell(model: &Model, request: &CampbellRequest) -> Result<CampbellReport, CampbellError> {
     let &Variation { ref path, from, to, values } = &request.vary;
     if !(from.is_finite() && to.is_finite()) || from == to {
         return Err(CampbellError::Range { path: path.clone(), from, to });
     }
     let last = values.max(2) - 1;
-    let mut search = Search { model, overrides, request, warnings: Vec::new() };
+    let mut search = Search { model, request, warnings: Vec::new() };
     let mut points: Vec<Point> = Vec::new();
     let mut lines = 0;
     for k in 0..=last {
@@ -263,9 +258,7 @@ impl Search<'_> {
         lines: &mut usize,
     ) -> Result<Point, CampbellError> {
         let path = &self.request.vary.path;
-        let mut changed = self.overrides.to_vec();
-        changed.push((path.clone(), format!("{value:?}")));
-        let document = self.model.document(&changed).map_err(CampbellError::Model)?;
+        let document = self.model.with(path, value).document().map_err(CampbellError::Model)?;
         let failed = |error| CampbellError::Modes { path: path.clone(), value, error: Box::new(error) };
         let count = self.request.count;
         let mut doubts = Vec::new();

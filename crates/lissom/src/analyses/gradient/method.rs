@@ -8,7 +8,7 @@ use lissom_model::Document;
 use lissom_model::numbers::number_at;
 
 use super::{GradientError, Target, prepared};
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::session::{Observed, Session};
 
 /// Relative change of the number in neighbouring models with the same steps. The error of central differences is proportional
@@ -33,7 +33,6 @@ const SAME_TIME: f64 = 1e-12;
 /// The request and its model.
 pub(super) struct Question<'a> {
     pub(super) model: &'a Model,
-    pub(super) overrides: &'a [Override],
     pub(super) target: &'a Target,
     pub(super) document: &'a Document,
     /// The model at its start.
@@ -89,7 +88,7 @@ impl Question<'_> {
             );
             return Err(GradientError::Number(words));
         }
-        let number = number_at(self.model.text(), self.overrides, &self.document.parameters, path)
+        let number = number_at(self.model.text(), self.model.overrides(), &self.document.parameters, path)
             .map_err(GradientError::Number)?;
         if number == 0.0 {
             let words = format!(
@@ -115,9 +114,8 @@ impl Question<'_> {
             &[(-1.0, -0.5), (1.0, 0.5)]
         };
         let neighbour = |&(side, weight): &(f64, f64)| {
-            let mut changed = self.overrides.to_vec();
-            changed.push((path.to_owned(), format!("{:?}", number + side * apart)));
-            let neighbour = Session::new(&prepared(self.model, &changed, self.target)?)?;
+            let changed = self.model.with(path, number + side * apart);
+            let neighbour = Session::new(&prepared(&changed, self.target)?)?;
             let unknowns = |session: &Session| {
                 let layout = session.simulation().system().layout();
                 (layout.coordinate_count(), layout.size(), session.columns().len())

@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::command_error::CommandError;
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::session::{Session, SessionError};
 pub use confirmation::Confirmation;
 use confirmation::{DirectDerivative, confirm};
@@ -64,10 +64,10 @@ impl Analysis for GradientRequest {
     type Report = GradientReport;
     type Error = GradientError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<GradientReport, GradientError> {
+    fn compute(&self, model: &Model) -> Result<GradientReport, GradientError> {
         let target =
             self.of.parse().map_err(|reason| GradientError::Target(CommandError::Request(reason)))?;
-        let report = gradient(model, overrides, &target, &self.by, !self.unconfirmed)?;
+        let report = gradient(model, &target, &self.by, !self.unconfirmed)?;
         Ok(GradientReport { of: self.of.clone(), ..report })
     }
 }
@@ -266,19 +266,18 @@ pub struct GradientReport {
     pub confirmation: Option<Confirmation>,
 }
 
-/// Derivatives of `target` with respect to the numbers at `paths` of `model`, with `overrides`. If `confirms`, direct
+/// Derivatives of `target` with respect to the numbers at `paths` of `model`. If `confirms`, direct
 /// derivatives are compared with a run of a neighbouring model.
 ///
 /// # Errors
 /// If the request is invalid for the model, a step has no solution, or runs contradict the derivatives.
 pub fn gradient(
     model: &Model,
-    overrides: &[Override],
     target: &Target,
     paths: &[String],
     confirms: bool,
 ) -> Result<GradientReport, GradientError> {
-    let document = prepared(model, overrides, target)?;
+    let document = prepared(model, target)?;
     let mut session = Session::new(&document)?;
     let system = session.simulation().system();
     let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
@@ -293,11 +292,11 @@ pub fn gradient(
         let known: Vec<String> = session.columns().iter().map(crate::Column::name).collect();
         return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });
     };
-    let question = Question { model, overrides, target, document: &document, session: &session };
+    let question = Question { model, target, document: &document, session: &session };
     if !is_direct {
         let numbers = paths.iter().map(|path| Ok((path.clone(), question.number(path)?)));
         let numbers = numbers.collect::<Result<_, GradientError>>()?;
-        return across_switches((model, overrides, target), column, numbers);
+        return across_switches((model, target), column, numbers);
     }
     let mut sensitivities = ParameterSensitivities::new(&question, paths)?;
     let mut history = OutputHistory::new(target.measure);
@@ -310,7 +309,7 @@ pub fn gradient(
         if is_dynamic && switches.have_changed(&session) {
             let numbers =
                 sensitivities.into_numbers().0.into_iter().map(|(path, number, _)| (path, number)).collect();
-            return across_switches((model, overrides, target), column, numbers);
+            return across_switches((model, target), column, numbers);
         }
         sensitivities.advance(&mut session)?;
         history.note(&session, column, &mut |column| sensitivities.derivatives(&session, column));
@@ -327,7 +326,7 @@ pub fn gradient(
         })
         .collect();
     let confirmation = if confirms {
-        confirmed((model, overrides, target), column, (value, history.largest()), &derivatives)?
+        confirmed((model, target), column, (value, history.largest()), &derivatives)?
     } else {
         None
     };
@@ -358,22 +357,21 @@ impl Switches {
     }
 }
 
-/// The request: model, overrides and target.
-type Asked<'a> = (&'a Model, &'a [Override], &'a Target);
+/// The request: model and target.
+type Asked<'a> = (&'a Model, &'a Target);
 
 /// Maximum error of a step in runs that are compared.
 const TOLERANCE_OF_RUNS: f64 = 1e-9;
 
 /// A run with other values of the numbers at `paths`.
 fn run(
-    (model, overrides, target): Asked<'_>,
+    (model, target): Asked<'_>,
     values: impl Iterator<Item = (String, f64)>,
     column: usize,
     tolerance: Option<f64>,
 ) -> Result<OutputHistory, GradientError> {
-    let mut changed = overrides.to_vec();
-    changed.extend(values.map(|(path, value)| (path, format!("{value:?}"))));
-    let mut document = prepared(model, &changed, target)?;
+    let changed = values.fold(model.clone(), |model, (path, value)| model.with(&path, value));
+    let mut document = prepared(&changed, target)?;
     if let (AnalysisKind::Dynamics { control: Some(control), .. }, Some(tolerance)) =
         (&mut document.analysis.kind, tolerance)
     {
@@ -442,8 +440,8 @@ fn confirmed(
 const LOAD_STEPS: usize = 10;
 
 /// The document of a run up to the requested time.
-fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Document, GradientError> {
-    let mut document = model.document(overrides)?;
+fn prepared(model: &Model, target: &Target) -> Result<Document, GradientError> {
+    let mut document = model.document()?;
     let analysis = &mut document.analysis;
     if !matches!(analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
         return Err(GradientError::NotInTime(analysis.kind.name()));

@@ -20,7 +20,7 @@ use serde::Deserialize;
 
 use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::session::SessionError;
 
 pub use crate::analyses::operating_point::OperatingPoint;
@@ -81,8 +81,8 @@ impl Analysis for ModeRequest {
     type Report = ModeReport;
     type Error = ModesError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<ModeReport, ModesError> {
-        modes(model, overrides, self)
+    fn compute(&self, model: &Model) -> Result<ModeReport, ModesError> {
+        modes(model, self)
     }
 }
 
@@ -209,12 +209,12 @@ pub struct ModeReport {
     pub warnings: Vec<AnalysisWarning>,
 }
 
-/// Natural modes of `model` with `overrides`.
+/// Natural modes of `model`.
 ///
 /// # Errors
 /// If the model is invalid, the state cannot be reached or is not in equilibrium, or modes were missed.
-pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Result<ModeReport, ModesError> {
-    let document = model.document(overrides)?;
+pub fn modes(model: &Model, request: &ModeRequest) -> Result<ModeReport, ModesError> {
+    let document = model.document()?;
     let (mut count, mut about, mut shift) =
         (lissom_model::document::DEFAULT_MODE_COUNT, OperatingPoint::Static, None);
     if let AnalysisKind::Modes { count: own, undeformed, shift: near } = document.analysis.kind {

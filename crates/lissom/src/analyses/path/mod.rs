@@ -23,7 +23,7 @@ use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
 use crate::diagnostic;
-use crate::model::{Model, Override};
+use crate::model::Model;
 use crate::session::columns;
 use number::Varied;
 pub use number::varied_number;
@@ -149,16 +149,16 @@ impl PathSession {
     ///
     /// # Errors
     /// If the model is invalid, has no load or no equilibrium without one, or the number has no effect.
-    pub fn new(model: &Model, overrides: &[Override]) -> Result<Self, PathSessionError> {
+    pub fn new(model: &Model) -> Result<Self, PathSessionError> {
         let began = Instant::now();
-        let document = model.document(overrides)?;
+        let document = model.document()?;
         let AnalysisKind::Path { first, end, most_steps, branch } = document.analysis.kind else {
             return Err(PathSessionError::NotAPath(document.analysis.kind.name()));
         };
         let lowered = lower(&document)?;
         let pictures = PathPictures::new(&document, &lowered);
         let Lowered { system, state, settings, channels, .. } = lowered;
-        let varied = Varied::of(model, overrides, &document, &state)?;
+        let varied = Varied::of(model, &document, &state)?;
         let from = varied.as_ref().map_or(0.0, |varied| varied.from);
         let unloaded = lower(&document.without_loads())?.system;
         let layout = system.layout();
@@ -401,6 +401,6 @@ fn under_loads(
 }
 
 /// Contents that are known before the first step.
-pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
-    crate::results::summary::of_request("path", name, overrides, document)
+pub fn of_request(model: &Model, document: &Document) -> Summary {
+    crate::results::summary::of_request("path", model, document)
 }

@@ -10,7 +10,7 @@ use lissom_model::lower::registry::registry;
 use lissom_model::numbers::number_at;
 use lissom_model::{Document, ModelText, Problem, Report};
 
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Positions that differ by less than this, over the size of the model, and angles [rad], are equal.
 const SIZE_TOLERANCE: f64 = 1e-9;
@@ -29,14 +29,9 @@ pub(super) struct Varied {
 
 impl Varied {
     /// The number that an analysis of kind `path` varies; none if it varies the load factor.
-    pub(super) fn of(
-        model: &Model,
-        overrides: &[Override],
-        document: &Document,
-        start: &State,
-    ) -> Result<Option<Self>, Report> {
-        let Some((path, from)) = varied_number(model, overrides, document)? else { return Ok(None) };
-        let text = Arc::new(model.model_text(overrides)?);
+    pub(super) fn of(model: &Model, document: &Document, start: &State) -> Result<Option<Self>, Report> {
+        let Some((path, from)) = varied_number(model, document)? else { return Ok(None) };
+        let text = Arc::new(model.model_text()?);
         Ok(Some(Self { text, path, from, start: Arc::new(start.kinematics.clone()) }))
     }
 
@@ -66,11 +61,7 @@ impl Family for Varied {
 ///
 /// # Errors
 /// If there is no such number, it has no effect, or it already has its last value.
-pub fn varied_number(
-    model: &Model,
-    overrides: &[Override],
-    document: &Document,
-) -> Result<Option<(String, f64)>, Report> {
+pub fn varied_number(model: &Model, document: &Document) -> Result<Option<(String, f64)>, Report> {
     let Some(vary) = &document.analysis.vary else { return Ok(None) };
     let path = vary.value.trim();
     let wrong = |message: String, help: &str| {
@@ -82,7 +73,7 @@ pub fn varied_number(
             "vary a number of the model, such as `parameters.height`; without `vary` the load factor is varied",
         );
     }
-    let from = match number_at(model.text(), overrides, &document.parameters, path) {
+    let from = match number_at(model.text(), model.overrides(), &document.parameters, path) {
         Ok(from) => from,
         Err(words) => return wrong(words, "name a number of the model file, such as `parameters.height`"),
     };

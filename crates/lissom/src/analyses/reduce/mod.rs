@@ -22,7 +22,7 @@ use crate::analyses::modes::ModesError;
 use crate::analyses::operating_point::OperatingPoint;
 use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::{Model, Override};
+use crate::model::Model;
 
 /// Modes for corrections: this multiple of the requested number, plus a constant. The contribution of further modes decreases
 /// with the square of their number.
@@ -88,8 +88,8 @@ impl Analysis for ReduceRequest {
     type Report = ReduceReport;
     type Error = ReduceError;
 
-    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<ReduceReport, ReduceError> {
-        reduce(model, overrides, self)
+    fn compute(&self, model: &Model) -> Result<ReduceReport, ReduceError> {
+        reduce(model, self)
     }
 }
 
@@ -153,16 +153,12 @@ fn question<T>(words: impl Into<String>) -> Result<T, ReduceError> {
     Err(ReduceError::Question(words.into()))
 }
 
-/// Reduces parts of `model` with `overrides`. Gravity is omitted: weight belongs to the model that uses the superelement.
+/// Reduces parts of `model`. Gravity is omitted: weight belongs to the model that uses the superelement.
 ///
 /// # Errors
 /// If the request is invalid for the model, the state cannot be reached, or the parts are not an elastic assembly.
-pub fn reduce(
-    model: &Model,
-    overrides: &[Override],
-    request: &ReduceRequest,
-) -> Result<ReduceReport, ReduceError> {
-    let mut document = model.document(overrides).map_err(ModesError::from)?;
+pub fn reduce(model: &Model, request: &ReduceRequest) -> Result<ReduceReport, ReduceError> {
+    let mut document = model.document().map_err(ModesError::from)?;
     let has_gravity = document.gravity.norm() > 0.0;
     document.gravity.fill(0.0);
     let names = lower(&document).map_err(ModesError::from)?;

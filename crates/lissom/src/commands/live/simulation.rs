@@ -112,7 +112,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             }
             // The included files are known after the model has been read.
             if let Ok(text) = Model::read(&model) {
-                let _ = text.document(&set);
+                let _ = text.with_overrides(&set).document();
                 included = text.included_files();
             }
             // The files are read after their times: a change in between is detected in the next check.
@@ -187,17 +187,16 @@ fn simulate(
     let began = Instant::now();
     let failed = |notice: Notice| Some(Message { notice: Some(notice), ..Message::default() });
     let model = match model {
-        Ok(model) => model,
+        Ok(model) => model.with_overrides(set),
         Err(error) => return failed(Notice::of(&error)),
     };
-    match model.document(set) {
+    match model.document() {
         Ok(document) => *bases = document.parameters,
         Err(report) => return failed(wrong(&report)),
     }
-    let mut overrides = set.to_vec();
-    for (name, value) in sliders.iter().filter(|(name, _)| bases.contains_key(*name)) {
-        overrides.push((format!("parameters.{name}"), format!("{value:?}")));
-    }
+    let sliders_of_model = sliders.iter().filter(|(name, _)| bases.contains_key(*name));
+    let varied = sliders_of_model
+        .fold(model.clone(), |model, (name, value)| model.with(&format!("parameters.{name}"), *value));
     let mut named: Vec<(&String, &f64)> = bases.iter().collect();
     let order = parameters_of(model.text());
     let place = |name: &str| order.iter().position(|(known, _)| known == name).unwrap_or(usize::MAX);
@@ -209,7 +208,7 @@ fn simulate(
             json!({ "name": name, "base": base, "value": sliders.get(name).unwrap_or(base), "comment": comment })
         })
         .collect();
-    match results(&model, &overrides, is_current) {
+    match results(&varied, is_current) {
         Ok(None) => None,
         Ok(result) => Some(Message {
             result,
@@ -227,15 +226,11 @@ fn wrong(report: &lissom::Report) -> Notice {
 }
 
 /// A run in memory, or why there is none. None if the model has changed in the meantime.
-fn results(
-    model: &Model,
-    overrides: &[Override],
-    is_current: &dyn Fn() -> bool,
-) -> Result<Option<Results>, Notice> {
-    let document = model.document(overrides).map_err(|report| wrong(&report))?;
+fn results(model: &Model, is_current: &dyn Fn() -> bool) -> Result<Option<Results>, Notice> {
+    let document = model.document().map_err(|report| wrong(&report))?;
     match &document.analysis.kind {
         AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
-        AnalysisKind::Path { .. } => return path(model, overrides, &document, is_current),
+        AnalysisKind::Path { .. } => return path(model, &document, is_current),
         kind => {
             let text =
                 format!("An analysis of kind `{}` is not simulated here: use `lissom run`.", kind.name());
@@ -244,7 +239,7 @@ fn results(
     }
     let lowered = lower(&document).map_err(|report| wrong(&report))?;
     let scene = Scene::of(&document, &lowered.placed());
-    let mut summary = summary::of_model(model.name(), overrides, &document, &lowered);
+    let mut summary = summary::of_model(model, &document, &lowered);
     let motion = Buffer::default();
     let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, motion.clone());
     let mut session = Session::start(lowered).map_err(|error| Notice::of(&error))?;
@@ -258,7 +253,7 @@ fn results(
         looked = Instant::now();
         if is_current() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
-    let report = session.run(&mut [&mut record as &mut dyn Writer], &mut watch);
+    let report = session.run_with(&mut [&mut record as &mut dyn Writer], &mut watch);
     if !report.is_complete() && report.error().is_none() {
         return Ok(None);
     }
@@ -271,12 +266,11 @@ fn results(
 /// An equilibrium path in memory. None if the model has changed in the meantime.
 fn path(
     model: &Model,
-    overrides: &[Override],
     document: &Document,
     is_current: &dyn Fn() -> bool,
 ) -> Result<Option<Results>, Notice> {
     let motion = Buffer::default();
-    let session = match PathSession::new(model, overrides) {
+    let session = match PathSession::new(model) {
         Err(PathSessionError::Model(report)) => return Err(wrong(&report)),
         other => other.map_err(|error| Notice::of(&error))?,
     };
@@ -287,7 +281,7 @@ fn path(
     if matches!(report.end, PathEnd::Interrupted) {
         return Ok(None);
     }
-    let summary = session.summary(lissom::path::of_request(model.name(), overrides, document), &report);
+    let summary = session.summary(lissom::path::of_request(model, document), &report);
     let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
     let results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
     results.with_scene(&session.scene(), &motion.take()).map(Some).map_err(|error| Notice::of(&error))

@@ -65,7 +65,7 @@ impl Conditioning {
         let model = self.model.text()?;
         let request = self.request();
         // The model without these values need not be consistent: its end may be before its own first step.
-        let document = model.document(&request.first())?;
+        let document = request.first(&model).document()?;
         show_warnings(&document);
         let path = super::table_path(self.out.as_ref(), "conditioning", &self.model.model)?;
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
@@ -82,7 +82,6 @@ impl Conditioning {
         Request {
             steps: self.steps.iter().map(|step| step.trim().to_owned()).collect(),
             vary: self.vary.clone(),
-            overrides: self.model.set.clone(),
         }
     }
 }

@@ -76,7 +76,7 @@ impl Convergence {
         let interrupt = Interrupt::listen();
         let model = self.model.text()?;
         let request = self.request();
-        let document = model.document(&request.first())?;
+        let document = request.first(&model).document()?;
         show_warnings(&document);
         let path = super::table_path(self.out.as_ref(), "convergence", &self.model.model)?;
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
@@ -106,7 +106,6 @@ impl Convergence {
             steps: trimmed(&self.steps),
             reference: self.reference.clone(),
             output: self.output.clone(),
-            overrides: self.model.set.clone(),
         }
     }
 }

@@ -43,7 +43,7 @@ impl Factorization {
         let (model, document) = self.model.read()?;
         show_warnings(&document);
         let path = super::table_path(self.out.as_ref(), "factorization", &self.model.model)?;
-        let table = study(&model, &self.model.set)?;
+        let table = study(&model)?;
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.as_deref().unwrap_or(model.name());
         terminal::print(&render(title, &table));

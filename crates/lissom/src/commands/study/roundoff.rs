@@ -55,9 +55,8 @@ impl Roundoff {
         let request = Request {
             steps: self.steps.iter().map(|step| step.trim().to_owned()).collect(),
             output: self.output,
-            overrides: self.model.set,
         };
-        let document = model.document(&request.first())?;
+        let document = request.first(&model).document()?;
         show_warnings(&document);
         let path = super::table_path(self.out.as_ref(), "roundoff", &self.model.model)?;
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;

@@ -196,7 +196,7 @@ fn sections_that_are_turned_against_each_other_are_refused() {
         ("[1, 0, 0]", "tangent", false),
         ("[1, 0, 0]", "free", false),
     ] {
-        let said = match Model::from_text("slider.toml", &text(up, orientation)).session(&[]) {
+        let said = match Model::from_text("slider.toml", &text(up, orientation)).session() {
             Ok(_) => String::new(),
             Err(SessionError::Model(report)) => report.render(false),
             Err(error) => error.to_string(),
