@@ -7,6 +7,7 @@ pub use lissom_mechanics::{
     catalogued, contact, elements, evaluation, instants, joints, kinematics, law, number, ports, registry,
     relation, round_off, signals,
 };
+pub use lissom_motion as motion;
 pub use lissom_system as system;
 pub use lissom_system::{schemes, solver_features, tuning};
 
