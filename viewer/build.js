@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const target = process.argv[2] ?? join(here, "../crates/lissom/src/view/viewer.html");
+const target = process.argv[2] ?? join(here, "../crates/lissom/src/pictures/view/viewer.html");
 
 const script = await build({
   entryPoints: [join(here, "src/main.js")],

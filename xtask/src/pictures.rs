@@ -4,9 +4,9 @@ use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lissom::campbell::{CampbellError, CampbellRequest, Variation, campbell};
+use lissom::analyses::campbell::{CampbellError, CampbellRequest, Variation, campbell};
 use lissom::motion::{Motion, MotionRecorder};
-use lissom::picture::{Picture, PictureError, View, instants};
+use lissom::pictures::picture::{Picture, PictureError, View, instants};
 use lissom::start::lower;
 use lissom::{FileError, FolderError, Model, ResultFolder};
 use lissom_model::files;

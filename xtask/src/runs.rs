@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use lissom::modes::ModeRequest;
+use lissom::analyses::modes::ModeRequest;
 use lissom::{Document, Model, Override, Record};
 use lissom_model::document::AnalysisKind;
 use lissom_model::output::Column;
@@ -121,7 +121,8 @@ pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
 /// Natural modes as a record: their number in the place of time, `mode_frequency` [Hz] and `mode_damping`.
 fn modes(model: &Model, document: &Document) -> Result<Finished, String> {
     let began = Instant::now();
-    let found = lissom::modes::modes(model, &ModeRequest::default()).map_err(|error| error.to_string())?;
+    let found =
+        lissom::analyses::modes::modes(model, &ModeRequest::default()).map_err(|error| error.to_string())?;
     let column = |component: &str, quantity: &str, unit: &str| Column {
         output: "mode".to_owned(),
         component: component.to_owned(),

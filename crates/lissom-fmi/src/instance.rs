@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
 
-use lissom::fmu::{Causality, Interface, MODEL_FILE, PackedModel, Variable};
+use lissom::exchange::fmu::{Causality, Interface, MODEL_FILE, PackedModel, Variable};
 use lissom::{Model, Session, SessionSnapshot, sealed};
 use serde::{Deserialize, Serialize};
 

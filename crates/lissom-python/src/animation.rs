@@ -5,11 +5,11 @@ use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lissom::analysis::{self, Analysis};
-use lissom::modes::ModeRequest;
+use lissom::analyses::{self, Analysis};
+use lissom::analyses::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::start::lower;
-use lissom::view::Results;
+use lissom::pictures::view::Results;
 use lissom::{Record, ResultFolder, Session, summary};
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;
@@ -76,7 +76,7 @@ pub(crate) fn animation(
 /// The page of the natural modes in the tables `modes.csv` and `shapes.csv`, for a request as a TOML value.
 #[pyfunction]
 pub(crate) fn modes_animation(model: &NativeModel, py: Python<'_>, request: &str) -> PyResult<String> {
-    let request: ModeRequest = analysis::request(request).map_err(|error| of_analysis(&error))?;
+    let request: ModeRequest = analyses::request(request).map_err(|error| of_analysis(&error))?;
     let model = model.clone();
     interruptible(py, move || {
         let document = model.document()?;

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use lissom::analysis::{AnalysisError, Origin};
+use lissom::analyses::{AnalysisError, Origin};
 use lissom::core::diagnostics::Value;
 use lissom::core::simulation::InputError;
 use lissom::sweep::{SweepError, SweepFolderError};

@@ -105,37 +105,39 @@
 //! # More
 //!
 //! The state of a session between two steps is stored and restored by [`Session::snapshot`] and [`Session::restore`], to the last
-//! bit. Results are written to files with a [`ResultFolder`]. [`modes`], [`buckling`], [`path`], [`response`], [`linearize`],
-//! [`campbell`] and [`gradient`] are analyses without steps in time, [`sweep`] and [`study`] run a model many times. The crate's
-//! `examples` folder contains programs that check themselves: a pendulum, an arm with an external controller, a thousand copies
-//! on all cores.
+//! bit. Results are written to files with a [`ResultFolder`]. [`modes`], [`buckling`], [`PathSession`], [`response`], [`linearize`],
+//! [`campbell`] and [`gradient`] are analyses without steps in time, [`sweep`] and [`analyses::study`] run a model many times.
+//! [`core`] contains what is below a session, for elements and analyses of one's own, and [`model`] the types of a model file. The
+//! crate's `examples` folder contains programs that check themselves: a pendulum, an arm with an external controller, a thousand
+//! copies on all cores, an element of one's own.
 
 pub mod analyses;
-pub mod analysis;
 mod analysis_warning;
 pub mod builder;
 mod catalogue;
 mod command_error;
 mod diagnostic;
 mod encodings;
-pub mod export;
+pub mod exchange;
 mod failures;
-pub mod fmu;
-pub mod geometry;
 mod ids;
-pub mod import;
-mod model;
+mod model_text;
 pub mod motion;
-pub mod picture;
+pub mod pictures;
 mod results;
 mod run;
 mod session;
 pub mod start;
-pub mod study;
 pub mod sweep;
-pub mod view;
 
-pub use analyses::{buckling, campbell, gradient, linearize, modes, path, reduce, response};
+pub use analyses::buckling::buckling;
+pub use analyses::campbell::{CampbellRequest, campbell};
+pub use analyses::gradient::gradient;
+pub use analyses::linearize::{LinearizeRequest, linearize};
+pub use analyses::modes::{ModeRequest, modes};
+pub use analyses::path::PathSession;
+pub use analyses::reduce::{ReduceRequest, reduce};
+pub use analyses::response::{ResponseRequest, response};
 pub use analysis_warning::AnalysisWarning;
 pub use catalogue::catalogue;
 pub use command_error::CommandError;
@@ -143,10 +145,11 @@ pub use diagnostic::with_code;
 pub use encodings::sealed;
 pub use lissom_core as core;
 pub use lissom_core::diagnostics::{Diagnose, Diagnostic, Severity};
+pub use lissom_model as model;
 pub use lissom_model::files::FileError;
 pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
-pub use model::{Model, Override, Value};
+pub use model_text::{Model, Override, Value};
 pub use motion::RecordedRun;
 pub use results::checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use results::folder::{FolderError, ResultFolder, protect_results};

@@ -1,8 +1,8 @@
 //! Derivatives along the steps against central differences of whole runs.
 
 use cantilever::CANTILEVER;
-use lissom::analysis::{AnalysisError, Origin};
-use lissom::gradient::{Confirmation, GradientError, Method, Target, gradient};
+use lissom::analyses::gradient::{Confirmation, GradientError, Method, Target, gradient};
+use lissom::analyses::{AnalysisError, Origin};
 use lissom::{Model, Override};
 
 use crate::support::cantilever;

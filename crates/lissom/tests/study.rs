@@ -4,9 +4,9 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use lissom::analyses::study::{StudyError, conditioning, convergence, factorization, roundoff};
 use lissom::core::scaling::ScaleBy;
 use lissom::core::simulation::ConditionMethod;
-use lissom::study::{StudyError, conditioning, convergence, factorization, roundoff};
 use lissom::{Model, Override};
 
 /// Powers of ten between two published values.
@@ -355,15 +355,16 @@ fn one_step_of_a_tenth_of_a_second_is_solved() {
 fn slopes_are_drawn_within_the_range_of_the_curves() {
     let model = lissom::Model::read(std::path::Path::new(&crate::support::example("pendulum"))).unwrap();
     let texts = |list: &[&str]| list.iter().map(|&text| text.to_owned()).collect::<Vec<_>>();
-    let request = lissom::study::convergence::Request {
+    let request = lissom::analyses::study::convergence::Request {
         schemes: texts(&["radau-iia", "hht(-0.3)"]),
         steps: texts(&["2e-2", "1e-2", "5e-3"]),
         reference: ("radau-iia".to_owned(), "1e-3".to_owned()),
         output: "bob".to_owned(),
     };
-    let table = lissom::study::convergence::study(&model.with("analysis.end", 0.2), &request, &|_, _| {
-        std::ops::ControlFlow::Continue(())
-    });
+    let table =
+        lissom::analyses::study::convergence::study(&model.with("analysis.end", 0.2), &request, &|_, _| {
+            std::ops::ControlFlow::Continue(())
+        });
     let figure = table.unwrap().figure("Pendulum");
     let names: Vec<&str> = figure.guides.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["order 2", "order 3"]);

@@ -1,10 +1,10 @@
 //! The claims of [Epple 2008] about the method, each with the command that measures it, the figure, and whether they agree.
 
 use lissom::Override;
+use lissom::analyses::study::conditioning::{self, Table as Conditions};
+use lissom::analyses::study::convergence;
+use lissom::analyses::study::factorization::{self, scaling_name};
 use lissom::core::studies::factorization::{Case, Factored};
-use lissom::study::conditioning::{self, Table as Conditions};
-use lissom::study::convergence;
-use lissom::study::factorization::{self, scaling_name};
 
 use super::fragment::{Fragment, overrides, study_command, texts};
 use super::numbers::{one, two};

@@ -1,7 +1,7 @@
 //! Condition numbers of the pendulum beside the published ones, and of the tip crank. Refers to the models only by name.
 
 use lissom::Override;
-use lissom::study::conditioning::{Measured, Request, Row, SCALINGS, Table, study};
+use lissom::analyses::study::conditioning::{Measured, Request, Row, SCALINGS, Table, study};
 
 use super::fragment::{Fragment, overrides, study_command, texts};
 use super::numbers::two;

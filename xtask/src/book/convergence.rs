@@ -1,6 +1,6 @@
 //! How fast the schemes converge on the tip crank: figure 2.4 of [Epple 2008].
 
-use lissom::study::convergence::{Request, Row, Table, study};
+use lissom::analyses::study::convergence::{Request, Row, Table, study};
 
 use super::fragment::{Fragment, overrides, study_command, texts};
 use super::numbers::two;

@@ -1,7 +1,7 @@
 //! Effects of scaling, augmented term and pivoting on the first tangent of the tip crank.
 
+use lissom::analyses::study::factorization::{Table, scaling_name, study};
 use lissom::core::studies::factorization::{Case, Factored};
-use lissom::study::factorization::{Table, scaling_name, study};
 
 use super::fragment::{Fragment, overrides, study_command};
 use super::numbers::{one, two};

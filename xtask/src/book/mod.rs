@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use lissom::study::StudyError;
+use lissom::analyses::study::StudyError;
 use lissom::{FileError, Model};
 use lissom_model::output::FigureError;
 

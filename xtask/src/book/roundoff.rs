@@ -1,6 +1,6 @@
 //! Round-off of reactions at tiny steps.
 
-use lissom::study::roundoff::{Request, study};
+use lissom::analyses::study::roundoff::{Request, study};
 
 use super::fragment::{Fragment, overrides, study_command, texts};
 use super::numbers::one;

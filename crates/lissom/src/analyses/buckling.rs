@@ -14,10 +14,10 @@ use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analyses::interface::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analyses::modes::shapes_table;
-use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// First step of the load factor towards one, and maximum number of steps.
 const FIRST: f64 = 0.25;
@@ -42,7 +42,7 @@ load factors missed.")
 )]
 pub struct BucklingRequest {
     /// Number of load factors, the lowest first [default: 5].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analysis::counts(1..)))]
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
     pub count: Option<usize>,
 }
 

@@ -12,13 +12,13 @@ use lissom_model::output::{full_matrix, quoted, sparse_matrix};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analyses::interface::{Analysis, AnalysisReport};
 use crate::analyses::modes::ModesError;
 use crate::analyses::operating_point::{self, LinearizationPoint, OperatingPoint};
 use crate::analyses::ports::{self, Input, Observed};
 use crate::analyses::response::FrequencyError;
-use crate::analysis::{Analysis, AnalysisReport};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::session::Session;
 
 /// Write the matrices of the model linearised about a state.

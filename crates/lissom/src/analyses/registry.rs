@@ -8,13 +8,13 @@ use lissom_model::output::Summary;
 use crate::analyses::buckling::BucklingRequest;
 use crate::analyses::campbell::CampbellRequest;
 use crate::analyses::gradient::GradientRequest;
+use crate::analyses::interface::{self, Analysis, AnalysisError, AnalysisReport};
 use crate::analyses::linearize::LinearizeRequest;
 use crate::analyses::modes::ModeRequest;
 use crate::analyses::reduce::ReduceRequest;
 use crate::analyses::response::ResponseRequest;
-use crate::analysis::{self, Analysis, AnalysisError, AnalysisReport};
 use crate::diagnostic::with_code;
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// All analyses. On the command line each is also a line of `commands`.
 pub const ANALYSES: &[Registered] = &[
@@ -55,7 +55,7 @@ impl ResultFiles {
     pub fn of<A: Analysis>(report: &A::Report, wall: Duration, model: &Model, document: &Document) -> Self {
         Self {
             tables: report.tables(),
-            summary: analysis::summary::<A>(report, wall, model, document),
+            summary: interface::summary::<A>(report, wall, model, document),
             warnings: report.warnings().iter().map(with_code).collect(),
         }
     }
@@ -72,7 +72,7 @@ fn boxed(error: impl AnalysisError + 'static) -> Box<dyn AnalysisError> {
 }
 
 fn compute<A: Analysis>(model: &Model, request: &str) -> Outcome {
-    let request: A = analysis::request(request).map_err(boxed)?;
+    let request: A = interface::request(request).map_err(boxed)?;
     let began = Instant::now();
     let report = request.compute(model).map_err(boxed)?;
     let document = model.document().map_err(boxed)?;

@@ -13,12 +13,12 @@ use num_complex::Complex64;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analyses::interface::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analyses::modes::ModesError;
 use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::analyses::ports::{self, Input, Observed, PortError};
-use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// Default number of frequencies.
 pub const DEFAULT_POINTS: usize = 400;
@@ -75,7 +75,7 @@ pub struct ResponseRequest {
     #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub to: f64,
     /// Number of frequencies, spaced logarithmically; more are added where a response changes rapidly.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = DEFAULT_POINTS, value_parser = crate::analysis::counts(2..=1_000_000)))]
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = DEFAULT_POINTS, value_parser = crate::analyses::interface::counts(2..=1_000_000)))]
     pub points: usize,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
     #[cfg_attr(

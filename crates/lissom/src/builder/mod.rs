@@ -50,7 +50,7 @@ use lissom_model::toml_text::{key, quoted};
 use lissom_model::{Problem, Report, Sources, Span};
 
 use crate::ids::{Id, IdNames, Table};
-use crate::model::Model;
+use crate::model_text::Model;
 
 pub use crate::ids::{
     AnalysisId, BeamId, BodyId, ContactId, EventId, ForeignId, GroundId, InitialId, InputId, JointId, LoadId,

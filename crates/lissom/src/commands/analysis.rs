@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use lissom::analysis::{self, Analysis, AnalysisError, AnalysisReport, Origin};
+use lissom::analyses::{self, Analysis, AnalysisError, AnalysisReport, Origin};
 use lissom::{Document, FolderError, Model, ResultFolder, summary};
 use lissom_core::number::duration;
 
@@ -72,7 +72,7 @@ pub(super) fn report<A: Analysis>(
         drawn.and_then(|drawn| ResultFolder::write_graphic(path, &drawn)).map_err(unwritable)?;
     }
     found.write_more(&folder, document).map_err(|error| Failure::new(Exit::Failed, &error))?;
-    let summary = analysis::summary::<A>(&found, wall, model, document);
+    let summary = analyses::summary::<A>(&found, wall, model, document);
     folder.write_summary(&summary).map_err(unwritable)?;
     if !quiet {
         for warning in found.warnings() {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use clap::Args;
-use lissom::path::varied_number;
+use lissom::analyses::path::varied_number;
 use lissom::start::{Lowered, lower};
 use lissom::{AnalysisWarning, Document, Report, Session};
 use lissom_core::consistent::mobility::mobility;

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
-use lissom::export::{ExportError, FORMATS, Format};
-use lissom::import::{from_model, to_urdf};
+use lissom::exchange::export::{ExportError, FORMATS, Format};
+use lissom::exchange::import::{from_model, to_urdf};
 use lissom::{Override, ResultFolder};
 use lissom_model::files;
 

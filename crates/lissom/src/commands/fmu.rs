@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::fmu::{FmuError, LIBRARY, export, platform};
+use lissom::exchange::fmu::{FmuError, LIBRARY, export, platform};
 use lissom_model::files;
 
 use super::model_arguments::ModelArguments;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use lissom::import::{Freedom, Options, Pose, Root, Unsupported, from_description, model_text};
+use lissom::exchange::import::{Freedom, Options, Pose, Root, Unsupported, from_description, model_text};
 use lissom::{Diagnose, Diagnostic, Model, SessionError};
 use lissom_model::files;
 

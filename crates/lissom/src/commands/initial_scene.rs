@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use lissom::motion::MotionRecorder;
+use lissom::pictures::view::Notice;
 use lissom::start::{lower, warnings_of};
-use lissom::view::Notice;
 use lissom::{Override, Session};
 use lissom_model::document::AnalysisKind;
 use lissom_model::scene::Scene;

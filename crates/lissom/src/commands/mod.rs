@@ -30,13 +30,13 @@ use std::process::ExitCode;
 
 use analysis::AnalysisCommand;
 use clap::{Parser, Subcommand};
-use lissom::buckling::BucklingRequest;
-use lissom::campbell::CampbellRequest;
-use lissom::gradient::GradientRequest;
-use lissom::linearize::LinearizeRequest;
-use lissom::modes::ModeRequest;
-use lissom::reduce::ReduceRequest;
-use lissom::response::ResponseRequest;
+use lissom::analyses::buckling::BucklingRequest;
+use lissom::analyses::campbell::CampbellRequest;
+use lissom::analyses::gradient::GradientRequest;
+use lissom::analyses::linearize::LinearizeRequest;
+use lissom::analyses::modes::ModeRequest;
+use lissom::analyses::reduce::ReduceRequest;
+use lissom::analyses::response::ResponseRequest;
 
 use self::outcome::{Exit, Failure};
 

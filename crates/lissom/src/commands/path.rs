@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
+use lissom::analyses::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
 use lissom::{Diagnose, Document, FolderError, Model, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
 

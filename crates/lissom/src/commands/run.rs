@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use lissom::buckling::BucklingRequest;
-use lissom::modes::ModeRequest;
+use lissom::analyses::buckling::BucklingRequest;
+use lissom::analyses::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::start::{Assembly, Lowered, lower};
 use lissom::{

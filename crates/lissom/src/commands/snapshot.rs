@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lissom::motion::Motion;
-use lissom::picture::{Picture, PictureError, RecordedForces, View, instants};
+use lissom::pictures::picture::{Picture, PictureError, RecordedForces, View, instants};
 use lissom::{FolderError, Override, RecordedModes, ResultFolder};
 use lissom_model::files;
 use lissom_model::output::{DrawingError, animation};

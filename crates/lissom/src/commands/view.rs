@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use lissom::view::Results;
+use lissom::pictures::view::Results;
 use lissom::{CommandError, FileError, Override, ResultFolder};
 use lissom_model::files;
 

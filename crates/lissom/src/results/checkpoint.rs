@@ -12,7 +12,7 @@ use lissom_model::files::{self, FileError};
 use serde::{Deserialize, Serialize};
 
 use crate::encodings::sealed;
-use crate::model::Override;
+use crate::model_text::Override;
 use crate::session::{Checkpoints, SessionSnapshot};
 
 /// Name of the file.

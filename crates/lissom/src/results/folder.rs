@@ -15,7 +15,7 @@ use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
 
 use super::checkpoint::{CHECKPOINT, Checkpoint};
-use crate::export;
+use crate::exchange::export;
 use crate::motion::{Motion, MotionError};
 
 /// Name of the table in the folder.

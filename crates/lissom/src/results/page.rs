@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::folder::{CAMPBELL, EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
 use crate::motion::{Motion, MotionError, RecordedRun};
-use crate::view::{Notice, Results};
+use crate::pictures::view::{Notice, Results};
 
 impl ResultFolder {
     /// A run with its motion.

@@ -9,7 +9,7 @@ use lissom_model::scene::Scene;
 use super::folder::{FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
 use super::page::{foreign, read_scene};
 use crate::motion::{Motion, MotionError};
-use crate::view::modes::{Mode, read};
+use crate::pictures::view::modes::{Mode, read};
 
 /// The largest displacement over the size of the model, and the largest rotation of a mode without displacements [rad], as
 /// on the page.

@@ -15,7 +15,7 @@ use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
 use crate::diagnostic::{self, with_code};
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::run::report::RunReport;
 use crate::session::{Session, columns};
 

@@ -51,7 +51,7 @@ use lissom_model::registry::Registry;
 use lissom_model::{ModelText, Report};
 use serde_json::json;
 
-use crate::model::{Model, Override};
+use crate::model_text::{Model, Override};
 use crate::session::{Progress, columns};
 
 pub use collector::History;

@@ -1,8 +1,8 @@
 //! Forces per length of beams, against closed forms.
 
-use lissom::buckling::buckling;
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
-use lissom::path::{PathEnd, PathSession};
+use lissom::analyses::buckling::buckling;
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::path::{PathEnd, PathSession};
 use lissom::{Model, Session, SessionError};
 
 use crate::support::sessions::finished;

@@ -5,8 +5,8 @@
 
 use std::f64::consts::PI;
 
-use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
-use lissom::path::{PathEnd, PathSession};
+use lissom::analyses::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
+use lissom::analyses::path::{PathEnd, PathSession};
 use lissom::{Model, Session};
 use lissom_core::errors::Warning;
 use lissom_core::linearized::Completeness;

@@ -1,6 +1,6 @@
 //! Loads that depend on the motion of their own points, beside closed forms and published flutter.
 
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, SessionError};
 
 use crate::support::refused::refused;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use lissom::gradient::gradient;
+use lissom::analyses::gradient::gradient;
 use lissom::{Model, Record, Session, SessionSnapshot};
 use serde_json::Value;
 

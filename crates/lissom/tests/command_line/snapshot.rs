@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use lissom::geometry::{Geometry, Role, poses_at};
-use lissom::picture::{Projection, RecordedForces, View, painted};
+use lissom::pictures::geometry::{Geometry, Role, poses_at};
+use lissom::pictures::picture::{Projection, RecordedForces, View, painted};
 use lissom::{Record, ResultFolder};
 use lissom_motion::Vector3;
 

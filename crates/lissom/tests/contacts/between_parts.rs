@@ -1,8 +1,8 @@
 //! Contacts between parts: restitution, friction that sticks, rolling, clearance, chains of balls, and wrong models.
 
 use lissom::Model;
-use lissom::gradient::{GradientError, Method, gradient};
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::gradient::{GradientError, Method, gradient};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 
 use crate::support::refused::refused;
 use crate::support::runs::run;
@@ -356,7 +356,7 @@ end = {end}
     )
 }
 
-fn modes_about(text: &str, about: OperatingPoint) -> lissom::modes::ModeReport {
+fn modes_about(text: &str, about: OperatingPoint) -> lissom::analyses::modes::ModeReport {
     let request =
         ModeRequest { count: Some(30), about: Some(about), no_plots: true, ..ModeRequest::default() };
     modes(&Model::from_text("contact.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))

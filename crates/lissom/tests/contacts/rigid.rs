@@ -1,6 +1,6 @@
 //! Rigid contacts against formulas: impacts, rest, opening, friction, several contacts at once, and what is rejected.
 
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record};
 
 use crate::support::refused::refused;

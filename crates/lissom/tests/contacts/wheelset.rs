@@ -1,7 +1,7 @@
 //! Wheels on rails: the wheelset of Simeon, Fuehrer and Rentrop 1991 with its published digits, all schemes, stability, and what
 //! is reported where the model of one contact ends.
 
-use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record};
 use lissom_core::linearized::ModeKind;
 

@@ -3,10 +3,10 @@
 use lissom::AnalysisWarning;
 use std::f64::consts::TAU;
 
-use lissom::campbell::{CampbellRequest, campbell};
-use lissom::gradient::{Confirmation, GradientReport, Method, Target, gradient};
-use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
-use lissom::path::PathEnd;
+use lissom::analyses::campbell::{CampbellRequest, campbell};
+use lissom::analyses::gradient::{Confirmation, GradientReport, Method, Target, gradient};
+use lissom::analyses::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
+use lissom::analyses::path::PathEnd;
 use lissom::{Model, Override, Session};
 use lissom_core::path::CriticalKind;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use lissom::modes::{ModeRequest, modes};
+use lissom::analyses::modes::{ModeRequest, modes};
 use lissom::{Model, Record};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix};
 

@@ -318,12 +318,12 @@ fn latches_go_on_from_a_snapshot_and_are_refused_where_they_cannot_be() {
         assert!(found.contains(wanted), "{wanted}: {found}");
     }
     // First-order equations know no constraints between velocities.
-    let request = lissom::linearize::LinearizeRequest {
-        about: lissom::modes::OperatingPoint::Time(0.0),
+    let request = lissom::analyses::linearize::LinearizeRequest {
+        about: lissom::analyses::modes::OperatingPoint::Time(0.0),
         inputs: vec!["motor".to_owned()],
         outputs: vec!["axle".to_owned()],
     };
     let model = Model::from_text("discs.toml", DISCS);
-    let error = lissom::linearize::linearize(&model, &request).map(|_| ()).unwrap_err();
+    let error = lissom::analyses::linearize::linearize(&model, &request).map(|_| ()).unwrap_err();
     assert!(error.to_string().contains("a constraint between velocities"), "{error}");
 }

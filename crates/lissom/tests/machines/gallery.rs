@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use lissom::Model;
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 
 use crate::support::runs::{column, last, run};
 

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use lissom::import::{Options, Pose, Root, Unsupported, from_urdf, model_text};
+use lissom::exchange::import::{Options, Pose, Root, Unsupported, from_urdf, model_text};
 use lissom_motion::Vector6;
 use serde_json::Value;
 
@@ -89,7 +89,7 @@ fn accelerations_are_those_of_pinocchio() {
         for (joint, torque) in known.joints.iter().zip(&known.torques) {
             let freedom = robot.joints.iter().find(|own| own.name == *joint).expect("there").freedom;
             let (kind, key) = match freedom {
-                lissom::import::Freedom::Displacement => ("joint_force", "force"),
+                lissom::exchange::import::Freedom::Displacement => ("joint_force", "force"),
                 _ => ("joint_torque", "torque"),
             };
             let _ = write!(
@@ -167,7 +167,7 @@ fn error_of_fall(name: &str, text: &str, scheme: &str, step: &str) -> f64 {
     let fall = known.fall.expect("a fall");
     let errors = known.joints.iter().zip(&fall).map(|(joint, wanted)| {
         let freedom = robot.joints.iter().find(|own| own.name == *joint).expect("there").freedom;
-        let slides = freedom == lissom::import::Freedom::Displacement;
+        let slides = freedom == lissom::exchange::import::Freedom::Displacement;
         (last(&record, joint, if slides { "displacement" } else { "angle" }) - wanted).abs()
     });
     errors.fold(0.0, f64::max)

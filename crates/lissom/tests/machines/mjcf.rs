@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
-use lissom::import::{LinkInertia, Options, Pose, Robot, Root, Unsupported, from_description, model_text};
+use lissom::exchange::import::{
+    LinkInertia, Options, Pose, Robot, Root, Unsupported, from_description, model_text,
+};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 
 use crate::support::runs::{column, last, run};
@@ -206,7 +208,9 @@ fn classes_give_defaults() {
             <body name='d'><joint name='j4' damping='5' class='main'/><geom mass='1'/></body></body></body></body>
          </worldbody></mujoco>",
     );
-    let of = |key: fn(&lissom::import::RobotJoint) -> f64| robot.joints.iter().map(key).collect::<Vec<_>>();
+    let of = |key: fn(&lissom::exchange::import::RobotJoint) -> f64| {
+        robot.joints.iter().map(key).collect::<Vec<_>>()
+    };
     assert_eq!(of(|joint| joint.damping), [1.0, 2.0, 3.0, 5.0]);
     assert_eq!(of(|joint| joint.axis.x), [0.0, 1.0, 1.0, 0.0]);
     assert_eq!(of(|joint| joint.armature), [0.1; 4]);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lissom::Model;
-use lissom::import::{Options, Pose, Robot, Root, from_model, from_urdf, model_text, to_urdf};
+use lissom::exchange::import::{Options, Pose, Robot, Root, from_model, from_urdf, model_text, to_urdf};
 
 use crate::support::runs::run;
 

@@ -4,7 +4,7 @@ use crate::support::paths;
 use crate::support::truss;
 
 use lissom::Model;
-use lissom::path::PathEnd;
+use lissom::analyses::path::PathEnd;
 use lissom_core::path::CriticalKind;
 use paths::{follow, near};
 use truss::truss;

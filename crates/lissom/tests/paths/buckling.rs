@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use lissom::Model;
-use lissom::buckling::{BucklingReport, BucklingRunError, buckling};
+use lissom::analyses::buckling::{BucklingReport, BucklingRunError, buckling};
 use lissom_core::linearized::Completeness;
 
 /// A clamped column of unit length under a load along its axis.

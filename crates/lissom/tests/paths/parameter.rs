@@ -3,7 +3,7 @@
 use crate::support::paths;
 use crate::support::truss;
 
-use lissom::path::PathEnd;
+use lissom::analyses::path::PathEnd;
 use lissom_core::path::CriticalKind;
 use paths::{follow, near, start};
 use truss::truss;

@@ -5,7 +5,7 @@
 use std::f64::consts::{PI, TAU};
 
 use lissom::Model;
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 
 /// A model of another program.
 struct Peer {

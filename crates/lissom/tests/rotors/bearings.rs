@@ -1,6 +1,6 @@
 //! Bearings of rotors beside closed forms: onset of whirl, squeeze-film damping; bushings that are the same from both sides.
 
-use lissom::campbell::{CampbellRequest, campbell};
+use lissom::analyses::campbell::{CampbellRequest, campbell};
 use lissom::{Model, Record};
 
 use crate::support::refused::refused;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use lissom::Model;
-use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, Variation, campbell};
-use lissom::modes::{ModeRequest, ModesError, OperatingPoint, modes};
+use lissom::analyses::campbell::{CampbellError, CampbellReport, CampbellRequest, Variation, campbell};
+use lissom::analyses::modes::{ModeRequest, ModesError, OperatingPoint, modes};
 
 fn request(path: &str, from: f64, to: f64, values: usize, count: usize, rays: &[u32]) -> CampbellRequest {
     CampbellRequest {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use lissom::Model;
-use lissom::campbell::{CampbellRequest, campbell};
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::campbell::{CampbellRequest, campbell};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use num_complex::Complex64;
 
 const HINGE: f64 = 0.2;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::campbell::{CampbellReport, CampbellRequest, Variation, campbell};
+use lissom::analyses::campbell::{CampbellReport, CampbellRequest, Variation, campbell};
 
 fn find(text: &str, (from, to): (f64, f64), values: usize) -> CampbellReport {
     let request = CampbellRequest {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use lissom::gradient::{GradientError, gradient};
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::gradient::{GradientError, gradient};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, SessionSnapshot};
 
 use crate::support::refused::refused;

@@ -11,8 +11,8 @@ mod outputs;
 use std::collections::BTreeMap;
 
 use lissom::Model;
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
-use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
@@ -437,7 +437,7 @@ fn no_description_of_rigid_bodies_leaves_it_out_unseen() {
         .expect("a text")
         .document()
         .expect("a good model");
-    let message = lissom::import::from_model(&document).expect_err("flexible").to_string();
+    let message = lissom::exchange::import::from_model(&document).expect_err("flexible").to_string();
     assert!(message.contains("superelement `rod` is flexible"), "{message}");
 }
 

@@ -1,6 +1,6 @@
 //! Follows the equilibrium paths of models.
 
-use lissom::path::{PathReport, PathSession, PathSessionError};
+use lissom::analyses::path::{PathReport, PathSession, PathSessionError};
 use lissom::{Model, Record};
 
 use super::runs;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 
 fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
     let request = ModeRequest { count: Some(count), about: Some(about), ..ModeRequest::default() };

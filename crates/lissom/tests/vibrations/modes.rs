@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use lissom::AnalysisWarning;
 use lissom::Model;
-use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes};
+use lissom::analyses::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes};
 use lissom_core::linearized::{Completeness, ModeKind};
 
 use crate::support::paths::near;

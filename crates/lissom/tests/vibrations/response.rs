@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::analysis::{AnalysisError, Origin};
-use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize};
-use lissom::modes::{ModeRequest, OperatingPoint, modes};
-use lissom::response::{FrequencyError, ResponseReport, ResponseRequest, response};
+use lissom::analyses::linearize::{LinearizeReport, LinearizeRequest, linearize};
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::analyses::response::{FrequencyError, ResponseReport, ResponseRequest, response};
+use lissom::analyses::{AnalysisError, Origin};
 use nalgebra::{Complex, DMatrix, Matrix4};
 
 type Complex64 = Complex<f64>;

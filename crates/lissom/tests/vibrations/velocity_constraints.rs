@@ -4,9 +4,9 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::linearize::{LinearizeRequest, linearize};
-use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
-use lissom::response::{ResponseRequest, response};
+use lissom::analyses::linearize::{LinearizeRequest, linearize};
+use lissom::analyses::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
+use lissom::analyses::response::{ResponseRequest, response};
 use lissom_core::linearized::{Completeness, ModeKind};
 
 use crate::support::paths::near;
@@ -282,7 +282,7 @@ step = 1e-2
 #[test]
 fn paths_reject_constraints_between_velocities() {
     let path = ball("").replace("kind = \"dynamics\"\nend = 1\nstep = 1e-2", "kind = \"path\"");
-    let error = lissom::path::PathSession::new(&Model::from_text("model.toml", &path));
+    let error = lissom::analyses::path::PathSession::new(&Model::from_text("model.toml", &path));
     let words = error.err().map(|error| error.to_string()).unwrap_or_default();
     assert!(words.contains("equilibrium path has no velocities") && words.contains("floor"), "{words}");
 }

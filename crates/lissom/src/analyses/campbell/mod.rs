@@ -11,13 +11,13 @@ use lissom_core::linearized::{Mode, ModeKind, ModeOptions, Whirl};
 use lissom_model::Report;
 use serde::Deserialize;
 
+#[cfg(feature = "command-line")]
+use crate::analyses::interface::counts;
+use crate::analyses::interface::{Analysis, AnalysisError, Origin};
 use crate::analyses::modes::{ModesError, Reliable, reliable};
 use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
-#[cfg(feature = "command-line")]
-use crate::analysis::counts;
-use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// Modes with a smaller likeness of shapes do not belong to one line.
 const ALIKE: f64 = 0.3;

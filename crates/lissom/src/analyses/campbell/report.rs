@@ -11,8 +11,8 @@ use serde_json::{Value, json};
 
 use super::figure::{CampbellLine, CampbellPlot};
 use super::{CampbellReport, Crossing, Point, PointMode, of_line};
-use crate::analysis::AnalysisReport;
-use crate::view::campbell::common_whirl;
+use crate::analyses::interface::AnalysisReport;
+use crate::pictures::view::campbell::common_whirl;
 
 impl CampbellReport {
     /// The table `campbell.csv`: value, rotation [Hz], line from 1, frequency [Hz] and damping ratio in the axes of the nodes,

@@ -8,7 +8,7 @@ use lissom_model::Document;
 use lissom_model::numbers::number_at;
 
 use super::{GradientError, Target, prepared};
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::session::{Observed, Session};
 
 /// Relative change of the number in neighbouring models with the same steps. The error of central differences is proportional

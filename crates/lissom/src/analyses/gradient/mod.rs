@@ -17,9 +17,9 @@ use lissom_model::{Document, Report};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
+use crate::analyses::interface::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::command_error::CommandError;
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::session::{Session, SessionError};
 pub use confirmation::Confirmation;
 use confirmation::{DirectDerivative, confirm};

@@ -18,9 +18,9 @@ use lissom_model::document::AnalysisKind;
 use lissom_model::lower::FrictionPoints;
 use serde::Deserialize;
 
-use crate::analysis::{Analysis, AnalysisError, Origin};
+use crate::analyses::interface::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::session::SessionError;
 
 pub use crate::analyses::operating_point::OperatingPoint;
@@ -60,7 +60,7 @@ Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise abo
 )]
 pub struct ModeRequest {
     /// Number of modes, the lowest first [default: 20].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analysis::counts(1..)))]
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
     pub count: Option<usize>,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file) or a time of the model's analysis [s].
     #[cfg_attr(

@@ -16,9 +16,9 @@ use lissom_model::scene::Scene;
 use serde_json::{Value, json};
 
 use super::ModeReport;
-use crate::analysis::AnalysisReport;
+use crate::analyses::interface::AnalysisReport;
 use crate::motion::{Motion, MotionRecorder};
-use crate::picture::{Picture, PictureError};
+use crate::pictures::picture::{Picture, PictureError};
 use crate::results::folder::{FolderError, ResultFolder};
 use crate::run::report::RunError;
 

@@ -23,7 +23,7 @@ use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
 use crate::diagnostic;
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::session::columns;
 use number::Varied;
 pub use number::varied_number;

@@ -10,7 +10,7 @@ use lissom_model::lower::registry::registry;
 use lissom_model::numbers::number_at;
 use lissom_model::{Document, ModelText, Problem, Report};
 
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// Positions that differ by less than this, over the size of the model, and angles [rad], are equal.
 const SIZE_TOLERANCE: f64 = 1e-9;

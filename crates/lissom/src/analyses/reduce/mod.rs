@@ -18,11 +18,11 @@ use lissom_model::document::{Attachment, Component, NodeReference};
 use lissom_model::lower::Names;
 use serde::Deserialize;
 
+use crate::analyses::interface::{Analysis, AnalysisError, Origin};
 use crate::analyses::modes::ModesError;
 use crate::analyses::operating_point::OperatingPoint;
-use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// Modes for corrections: this multiple of the requested number, plus a constant. The contribution of further modes decreases
 /// with the square of their number.

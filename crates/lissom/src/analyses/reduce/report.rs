@@ -12,7 +12,7 @@ use lissom_motion::Vector3;
 use serde_json::{Value, json};
 
 use super::ReduceReport;
-use crate::analysis::AnalysisReport;
+use crate::analyses::interface::AnalysisReport;
 use crate::encodings::npy;
 use crate::results::folder::{FolderError, ResultFolder};
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use lissom::view;
+use lissom::pictures::view;
 
 use super::address_word;
 use super::http::{self, Request};

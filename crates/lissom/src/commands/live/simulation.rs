@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
+use lissom::analyses::path::{PathEnd, PathSession, PathSessionError};
 use lissom::motion::MotionRecorder;
-use lissom::path::{PathEnd, PathSession, PathSessionError};
+use lissom::pictures::view::{Notice, Results};
 use lissom::start::lower;
-use lissom::view::{Notice, Results};
 use lissom::{Document, FileError, Model, Override, Record, Session, Writer, summary};
 use lissom_model::document::AnalysisKind;
 use lissom_model::scene::Scene;
@@ -281,7 +281,7 @@ fn path(
     if matches!(report.end, PathEnd::Interrupted) {
         return Ok(None);
     }
-    let summary = session.summary(lissom::path::of_request(model, document), &report);
+    let summary = session.summary(lissom::analyses::path::of_request(model, document), &report);
     let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
     let results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
     results.with_scene(&session.scene(), &motion.take()).map(Some).map_err(|error| Notice::of(&error))

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::study::conditioning::{Measured, Request, SCALINGS, Table, study};
+use lissom::analyses::study::conditioning::{Measured, Request, SCALINGS, Table, study};
 use lissom_core::simulation::ConditionMethod;
 
 use super::super::model_arguments::ModelArguments;
@@ -115,7 +115,7 @@ fn render(title: &str, table: &Table) -> String {
                         "step_size {}: ended at {:e} s, after {} steps",
                         row.step,
                         measured.end,
-                        lissom::study::conditioning::MAX_STEPS
+                        lissom::analyses::study::conditioning::MAX_STEPS
                     );
                 }
             }

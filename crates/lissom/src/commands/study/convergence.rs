@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::study::convergence::{Request, Table, study};
+use lissom::analyses::study::convergence::{Request, Table, study};
 use lissom::{AnalysisWarning, Diagnose};
 
 use super::super::model_arguments::ModelArguments;

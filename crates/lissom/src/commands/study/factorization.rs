@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::study::factorization::{Table, scaling_name, study};
+use lissom::analyses::study::factorization::{Table, scaling_name, study};
 use lissom_core::studies::factorization::{Case, ITERATIONS};
 
 use super::super::model_arguments::ModelArguments;

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
-use lissom::study::{StudyError, Watch};
+use lissom::analyses::study::{StudyError, Watch};
 use lissom_model::files;
 use lissom_model::output::LogFigure;
 

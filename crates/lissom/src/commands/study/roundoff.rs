@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lissom::Diagnose;
-use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
+use lissom::analyses::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings, warn};

@@ -9,7 +9,7 @@ use lissom_model::output::LogFigure;
 use super::members::{Effort, in_parallel};
 use super::observed::with_step;
 use super::{StudyError, Watch, csv_line};
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// Maximum number of steps: longer runs end earlier.
 pub const MAX_STEPS: usize = 2_000_000;

@@ -9,7 +9,7 @@ use lissom_model::output::Record;
 
 use super::StudyError;
 use super::members::Effort;
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::run::report::Stopped;
 use crate::session::Session;
 

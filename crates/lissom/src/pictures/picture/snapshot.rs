@@ -10,8 +10,8 @@ use lissom_motion::Vector3;
 use super::forces::RecordedForces;
 use super::painter::{Seen, painted};
 use super::view::{Projection, View};
-use crate::geometry::{Geometry, poses_at};
 use crate::motion::Motion;
+use crate::pictures::geometry::{Geometry, poses_at};
 use lissom_core::kinematics::GROUND;
 
 const WORDS: Shade = [0x1d, 0x24, 0x30];

@@ -11,7 +11,7 @@ use super::members::{Effort, in_parallel};
 use super::observed::{History, check_output, difference, observe, prepared, square, with_step};
 use super::scheme_words::scheme_of;
 use super::{StudyError, Watch, csv_line};
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// Tolerance of Newton's iteration, unless the user sets one or the model has a smaller one [-].
 pub const TOLERANCE: f64 = 1e-10;

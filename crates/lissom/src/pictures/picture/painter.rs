@@ -6,7 +6,7 @@ use lissom_motion::{Motion as Pose, Vector3};
 
 use super::view::Projection;
 use super::visible::{self, ItemBuffer, Laid};
-use crate::geometry::{Colour, Geometry, Mesh};
+use crate::pictures::geometry::{Colour, Geometry, Mesh};
 
 /// Longest edge of a partly hidden face, relative to the model: long faces have no unique distance.
 const LONGEST: f64 = 0.02;

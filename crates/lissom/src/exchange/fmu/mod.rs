@@ -12,7 +12,7 @@ use lissom_model::numbers::written_numbers;
 use lissom_model::{Document, Report};
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Model, Override};
+use crate::model_text::{Model, Override};
 use crate::session::columns;
 
 /// Name of the shared library in a unit, without its extension.

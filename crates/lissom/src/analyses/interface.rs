@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use toml::de::ValueDeserializer;
 
 use crate::command_error::CommandError;
-use crate::model::Model;
+use crate::model_text::Model;
 use crate::results::folder::ResultFolder;
 
 /// The request of an analysis. With the feature `clap` its fields are the options of the command.

@@ -6,9 +6,9 @@ use std::fmt::Write;
 use lissom_motion::{Motion as Pose, Vector3};
 
 use super::{ExportError, Format, Sink, chosen_frames, poses};
-use crate::geometry::{Carrier, Geometry, Mesh, Piece, Role};
 use crate::motion::{Motion, RecordedRun};
-use crate::view::base64;
+use crate::pictures::geometry::{Carrier, Geometry, Mesh, Piece, Role};
+use crate::pictures::view::base64;
 
 pub(super) const FORMAT: Format = Format {
     name: "vtk",

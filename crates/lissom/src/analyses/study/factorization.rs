@@ -5,7 +5,7 @@ use lissom_core::simulation::Simulation;
 use lissom_core::studies::factorization::{Case, factorization_study};
 
 use super::{StudyError, csv_line};
-use crate::model::Model;
+use crate::model_text::Model;
 
 /// All combinations on one model.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 
 use super::buffer::Buffer;
 use super::{ExportError, Format, Sink, chosen_frames, poses};
-use crate::geometry::{Carrier, Colour, Geometry, Mesh, Piece, Sweep, span, turn_to};
 use crate::motion::RecordedRun;
-use crate::picture::shade_of;
+use crate::pictures::geometry::{Carrier, Colour, Geometry, Mesh, Piece, Sweep, span, turn_to};
+use crate::pictures::picture::shade_of;
 use lissom_core::kinematics::NodeId;
 
 pub(super) const FORMAT: Format = Format {

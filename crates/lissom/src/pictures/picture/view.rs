@@ -2,7 +2,7 @@
 
 use lissom_motion::{Rotation, Vector3};
 
-use crate::geometry::{Geometry, turn_to};
+use crate::pictures::geometry::{Geometry, turn_to};
 
 /// A direction of view by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

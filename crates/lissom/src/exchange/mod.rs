@@ -1,0 +1,5 @@
+//! Exchange with other programs: results in their formats, robot descriptions, and models as units of co-simulation.
+
+pub mod export;
+pub mod fmu;
+pub mod import;
