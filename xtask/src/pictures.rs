@@ -99,7 +99,7 @@ const ROTOR: &str = concat!(
 );
 
 /// The model that `lissom new` writes, and its instant [s].
-const FIRST_MODEL: &str = include_str!("../../crates/lissom/src/commands/new_model.toml");
+const FIRST_MODEL: &str = include_str!("../../crates/lissom-cli/src/commands/new_model.toml");
 const FIRST_INSTANT: f64 = 2.7;
 
 /// Number of natural modes in their picture.
@@ -252,7 +252,7 @@ fn simulated(model: &str, name: &str) -> Result<PathBuf, PicturesError> {
 fn run_program(arguments: &[&str]) -> Result<(), PicturesError> {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(verify::root());
-    command.args(["run", "--release", "--quiet", "-p", "lissom", "--"]).args(arguments);
+    command.args(["run", "--release", "--quiet", "-p", "lissom-cli", "--"]).args(arguments);
     let succeeded = command.status().is_ok_and(|status| status.success());
     succeeded.then_some(()).ok_or_else(|| PicturesError::Run(arguments.join(" ")))
 }

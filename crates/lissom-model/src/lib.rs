@@ -30,7 +30,7 @@ pub use files::library::{self, Library};
 pub use format::suggest::help as suggestion;
 pub use functions::{table, table_family};
 pub use output::component::component_position;
-pub use outputs::channels;
+pub use outputs::{Deformed, channels};
 pub use reference::forms::{Form, FormKey, forms, function_names, meant};
 pub use reference::manual::{manual, topic, topics, unit_of};
 pub use reference::model_axes::{EntryAxes, model_axes};

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use lissom::analyses::{ANALYSES, ResultFiles};
 use lissom::analyses::linearize::{LinearizeRequest, linearize_session};
 use lissom::analyses::path::{PathEnd, PathSession, PathSessionError, of_request};
+use lissom::analyses::{ANALYSES, ResultFiles};
 use lissom::{Document, Record, Session};
 use pyo3::prelude::*;
 

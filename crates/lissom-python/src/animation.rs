@@ -5,11 +5,11 @@ use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lissom::analyses::{self, Analysis};
 use lissom::analyses::modes::ModeRequest;
+use lissom::analyses::{self, Analysis};
 use lissom::motion::MotionRecorder;
-use lissom::start::lower;
 use lissom::pictures::view::Results;
+use lissom::start::lower;
 use lissom::{Record, ResultFolder, Session, summary};
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;

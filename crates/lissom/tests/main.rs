@@ -2,11 +2,7 @@
 
 mod assembly;
 mod beams;
-#[cfg(feature = "command-line")]
-mod command_line;
 mod contacts;
-#[cfg(feature = "command-line")]
-mod defects;
 mod gradient;
 mod joints;
 mod machines;
@@ -14,8 +10,6 @@ mod models;
 mod paths;
 mod peers;
 mod published;
-#[cfg(feature = "command-line")]
-mod resume;
 mod rotors;
 mod schemes;
 mod sessions;

@@ -181,14 +181,14 @@ mod tests {
         let artifact = |name: &str, kind: &str, is_test: bool| {
             serde_json::json!({
                 "reason": "compiler-artifact", "executable": format!("/build/{name}"),
-                "manifest_path": "/tree/crates/lissom/Cargo.toml",
+                "manifest_path": "/tree/crates/lissom-cli/Cargo.toml",
                 "target": {"name": name, "kind": [kind]}, "profile": {"test": is_test},
             })
         };
         let built = programs(&[artifact("lissom", "bin", false), artifact("cable", "test", true)]);
         assert_eq!(built.tests.len(), 1);
-        assert_eq!(built.tests[0].name, "lissom: test cable");
-        assert_eq!(built.tests[0].folder, Path::new("/tree/crates/lissom"));
+        assert_eq!(built.tests[0].name, "lissom-cli: test cable");
+        assert_eq!(built.tests[0].folder, Path::new("/tree/crates/lissom-cli"));
         assert!(built.started.contains_key("lissom"));
     }
 

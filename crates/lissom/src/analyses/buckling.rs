@@ -31,7 +31,7 @@ const LARGE_TURN: f64 = 0.05;
 /// smaller than the critical ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(
-    feature = "command-line",
+    feature = "clap",
     derive(clap::Args),
     command(after_help = "\
 Example:
@@ -42,7 +42,7 @@ load factors missed.")
 )]
 pub struct BucklingRequest {
     /// Number of load factors, the lowest first [default: 5].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
     pub count: Option<usize>,
 }
 

@@ -121,7 +121,7 @@ pub fn summary<A: Analysis>(
 }
 
 /// Parser of an option that is a count in a range.
-#[cfg(feature = "command-line")]
+#[cfg(feature = "clap")]
 pub(crate) fn counts(
     range: impl std::ops::RangeBounds<i64>,
 ) -> impl clap::builder::TypedValueParser<Value = usize> {

@@ -28,7 +28,7 @@ use crate::session::Session;
 /// coordinates also `state-space-A.mtx` … `state-space-D.mtx` with `states.csv`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(
-    feature = "command-line",
+    feature = "clap",
     derive(clap::Args),
     command(after_help = "\
 Examples:
@@ -41,14 +41,14 @@ Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise abo
 )]
 pub struct LinearizeRequest {
     /// Inputs: entries of [inputs], loads or prescribed motions.
-    #[cfg_attr(feature = "command-line", arg(long = "input", value_name = "NAME,…", value_delimiter = ','))]
+    #[cfg_attr(feature = "clap", arg(long = "input", value_name = "NAME,…", value_delimiter = ','))]
     pub inputs: Vec<String>,
     /// Outputs, or columns of them.
-    #[cfg_attr(feature = "command-line", arg(long = "output", value_name = "NAME,…", value_delimiter = ','))]
+    #[cfg_attr(feature = "clap", arg(long = "output", value_name = "NAME,…", value_delimiter = ','))]
     pub outputs: Vec<String>,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
     #[cfg_attr(
-        feature = "command-line",
+        feature = "clap",
         arg(
             long,
             value_name = "STATE|TIME",

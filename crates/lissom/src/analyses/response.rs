@@ -45,7 +45,7 @@ const UNDAMPED: f64 = 1e-9;
 /// output per unit of each input), `response.svg` and `response.png` (Bode plot) and `summary.json`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(
-    feature = "command-line",
+    feature = "clap",
     derive(clap::Args),
     command(after_help = "\
 Examples:
@@ -58,28 +58,28 @@ Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise abo
 pub struct ResponseRequest {
     /// Inputs: entries of [inputs], loads or prescribed motions.
     #[cfg_attr(
-        feature = "command-line",
+        feature = "clap",
         arg(long = "input", value_name = "NAME,…", value_delimiter = ',', required = true)
     )]
     pub inputs: Vec<String>,
     /// Outputs, or columns of them.
     #[cfg_attr(
-        feature = "command-line",
+        feature = "clap",
         arg(long = "output", value_name = "NAME,…", value_delimiter = ',', required = true)
     )]
     pub outputs: Vec<String>,
     /// First frequency [Hz].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub from: f64,
     /// Last frequency [Hz].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub to: f64,
     /// Number of frequencies, spaced logarithmically; more are added where a response changes rapidly.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = DEFAULT_POINTS, value_parser = crate::analyses::interface::counts(2..=1_000_000)))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value_t = DEFAULT_POINTS, value_parser = crate::analyses::interface::counts(2..=1_000_000)))]
     pub points: usize,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
     #[cfg_attr(
-        feature = "command-line",
+        feature = "clap",
         arg(
             long,
             value_name = "STATE|TIME",

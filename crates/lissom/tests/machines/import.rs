@@ -245,11 +245,11 @@ fn extent(body: &lissom_model::document::Body) -> [[f32; 3]; 2] {
 
 #[test]
 fn shapes_and_meshes_of_links_are_drawn() {
-    let folder = crate::support::Folder::new("visuals");
+    let folder = crate::support::folder::Folder::new("visuals");
     let meshes = folder.path().join("robots/arm_description/meshes");
     std::fs::create_dir_all(&meshes).unwrap();
     let facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1000 0 0 vertex 0 500 0 endloop endfacet";
-    std::fs::write(meshes.join("plate.stl"), format!("solid plate\n{facet}\nendsolid")).unwrap();
+    folder.write("robots/arm_description/meshes/plate.stl", &format!("solid plate\n{facet}\nendsolid"));
     let text = "<robot name='arm'><link name='base'><visual><geometry><sphere radius='1'/></geometry></visual></link>\
          <link name='upper'><inertial><origin xyz='9 9 9'/><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
          <visual><origin xyz='0.5 0 0' rpy='0 0 1.5707963267948966'/><geometry><box size='0.2 1 0.4'/></geometry></visual>\

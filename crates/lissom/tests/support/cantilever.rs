@@ -39,12 +39,3 @@ of = "root"
 kind = "statics"
 steps = 4
 "#;
-
-/// A section that no beam has, which is a warning of a model.
-pub(crate) const SPARE_SECTION: &str = r#"
-
-[sections.spare]
-shape = "general"
-stiffness = [1e6, 4e5, 4e5, 100, 200, 200]
-mass = { per_length = 1, inertia = [2e-4, 1e-4, 1e-4] }
-"#;

@@ -11,7 +11,7 @@ use lissom_core::linearized::{Mode, ModeKind, ModeOptions, Whirl};
 use lissom_model::Report;
 use serde::Deserialize;
 
-#[cfg(feature = "command-line")]
+#[cfg(feature = "clap")]
 use crate::analyses::interface::counts;
 use crate::analyses::interface::{Analysis, AnalysisError, Origin};
 use crate::analyses::modes::{ModesError, Reliable, reliable};
@@ -36,7 +36,7 @@ const SOLUTIONS: usize = 8;
 /// `lissom view` shows the folder as a page.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(
-    feature = "command-line",
+    feature = "clap",
     derive(clap::Args),
     command(after_help = "\
 Examples:
@@ -47,13 +47,13 @@ Exit code: 0 success; 2 wrong model or command line; 3 no steady rotation, no mo
 )]
 pub struct CampbellRequest {
     /// Path of a number in the model file, its first and last value, and the number of values.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "PATH=FROM:TO:VALUES"))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "PATH=FROM:TO:VALUES"))]
     pub vary: Variation,
     /// Number of modes, the lowest first.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = 8, value_parser = counts(1..)))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value_t = 8, value_parser = counts(1..)))]
     pub count: usize,
     /// Multiples of the rotor speed whose crossings with the frequencies are critical speeds.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..)))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..)))]
     pub rays: Vec<u32>,
 }
 

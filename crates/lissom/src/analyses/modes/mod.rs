@@ -47,7 +47,7 @@ const MAX_ROUND_OFF: f64 = 1e-2;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 #[cfg_attr(
-    feature = "command-line",
+    feature = "clap",
     derive(clap::Args),
     command(after_help = "\
 Examples:
@@ -60,19 +60,16 @@ Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise abo
 )]
 pub struct ModeRequest {
     /// Number of modes, the lowest first [default: 20].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
     pub count: Option<usize>,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file) or a time of the model's analysis [s].
-    #[cfg_attr(
-        feature = "command-line",
-        arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)
-    )]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "STATE|TIME", allow_negative_numbers = true))]
     pub about: Option<OperatingPoint>,
     /// Compute the modes nearest to this frequency [default: the lowest ones].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub shift: Option<f64>,
     /// Do not draw the shapes.
-    #[cfg_attr(feature = "command-line", arg(long, display_order = 901))]
+    #[cfg_attr(feature = "clap", arg(long, display_order = 901))]
     pub no_plots: bool,
 }
 

@@ -35,7 +35,7 @@ const SOUGHT: [usize; 2] = [3, 24];
 /// equilibrium without gravity. Joints, springs and loads between an interface and the rest of the model are omitted.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(
-    feature = "command-line",
+    feature = "clap",
     derive(clap::Args),
     command(after_help = "\
 Examples:
@@ -46,28 +46,25 @@ Exit code: 0 success; 2 wrong model or command line; 3 no such state, or parts t
 )]
 pub struct ReduceRequest {
     /// Parts to be reduced: bodies, point masses, beams, superelements, entries of [parts] [default: all].
-    #[cfg_attr(feature = "command-line", arg(long = "part", value_name = "NAME,…", value_delimiter = ','))]
+    #[cfg_attr(feature = "clap", arg(long = "part", value_name = "NAME,…", value_delimiter = ','))]
     pub parts: Vec<String>,
     /// Interface nodes for joints, such as beam.start,beam.end; the floating frame is attached to the first one.
-    #[cfg_attr(
-        feature = "command-line",
-        arg(long, value_name = "NODE,…", value_delimiter = ',', required = true)
-    )]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NODE,…", value_delimiter = ',', required = true))]
     pub interfaces: Vec<String>,
     /// Number of modes with fixed interfaces.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "NUMBER", default_value_t = 10))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER", default_value_t = 10))]
     pub modes: usize,
     /// Omit correction shapes, which compensate for truncated modes where loads and rotation change the stiffness.
-    #[cfg_attr(feature = "command-line", arg(long = "modes-alone", action = clap::ArgAction::SetFalse))]
+    #[cfg_attr(feature = "clap", arg(long = "modes-alone", action = clap::ArgAction::SetFalse))]
     pub corrections: bool,
     /// State about which the model is reduced: `static`, `undeformed` or a time of the model's analysis [s].
     #[cfg_attr(
-        feature = "command-line",
+        feature = "clap",
         arg(long, value_name = "STATE|TIME", default_value = "static", allow_negative_numbers = true)
     )]
     pub about: OperatingPoint,
     /// Name of the superelement [default: that of the only part, or of the model file].
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "NAME"))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NAME"))]
     pub name: Option<String>,
 }
 

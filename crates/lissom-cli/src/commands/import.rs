@@ -1,0 +1,109 @@
+//! `lissom import`: a model file from a robot description of another program.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use lissom::exchange::import::{Freedom, Options, Pose, Root, Unsupported, from_description, model_text};
+use lissom::model::files;
+use lissom::{Diagnose, Diagnostic, Model, SessionError};
+
+use super::outcome::{Exit, Failure};
+use super::terminal;
+
+/// Convert a robot description (URDF, MJCF) to a model file: bodies, joints, limits, springs, damping and friction.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom import ur5.urdf                           writes ur5.toml
+  lissom import ur5.urdf --position elbow_joint=0.5 --out elbow.toml
+  lissom import solo12.urdf --floating --without limits,friction
+  lissom import hopper.xml                         MJCF, the description of MuJoCo")]
+pub(super) struct Import {
+    /// The description: URDF or MJCF, regardless of the file extension.
+    #[arg(value_name = "ROBOT")]
+    file: PathBuf,
+    /// The model file to write [default: the name of the description with the extension toml, in the current folder].
+    #[arg(long, short, value_name = "MODEL.toml")]
+    out: Option<PathBuf>,
+    /// Initial coordinate of a joint [rad, m]; may be repeated.
+    #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]
+    positions: Vec<(String, f64)>,
+    /// Leave the root free instead of fixing it to the ground.
+    #[arg(long)]
+    floating: bool,
+    /// Omit stops at limits, damping and friction, mimic joints, or what a model cannot express; several are separated by
+    /// commas.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    without: Vec<Part>,
+}
+
+/// What may be omitted.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    Limits,
+    Friction,
+    Mimic,
+    Unsupported,
+}
+
+fn joint_value(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("write JOINT=VALUE")?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("`{value}` is no number"))?;
+    if value.is_finite() {
+        Ok((name.trim().to_owned(), value))
+    } else {
+        Err("give a finite number".to_owned())
+    }
+}
+
+impl Import {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let file = format!("`{}`", self.file.display());
+        let bad = |error: Diagnostic| Failure::with_details(Exit::BadModel, &error.within(&file), "");
+        let stem = self.file.file_stem().unwrap_or_default();
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension("toml"));
+        if out.exists() {
+            let message =
+                format!("`{}` already exists and is not overwritten: name another with --out", out.display());
+            return Err(Failure::request(message));
+        }
+        let text =
+            files::read_input_text(&self.file).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        let mut robot = from_description(&text).map_err(|error| bad(error.diagnostic()))?;
+        robot.locate_meshes(&self.file, &out);
+        let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
+        let options = Options {
+            root: if self.floating { Root::Floating } else { Root::Held },
+            limits: !self.without.contains(&Part::Limits),
+            friction: !self.without.contains(&Part::Friction),
+            mimic: !self.without.contains(&Part::Mimic),
+            unsupported: if self.without.contains(&Part::Unsupported) {
+                Unsupported::LeftOut
+            } else {
+                Unsupported::Refused
+            },
+        };
+        let model = model_text(&robot, &pose, options).map_err(|error| bad(error.diagnostic()))?;
+        // A model without a consistent initial state is not written.
+        match Model::from_text(&out.display().to_string(), &model).session() {
+            Ok(_) => {}
+            Err(SessionError::Model(report)) => return Err(report.into()),
+            Err(error) => return Err(bad(error.diagnostic())),
+        }
+        files::write(&out, model.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
+        let moving =
+            robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();
+        let left_out =
+            robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone());
+        let left_out: String =
+            left_out.flat_map(|what| ["  omitted: ".to_owned(), what, "\n".to_owned()]).collect();
+        terminal::print(&format!(
+            "{} is written: {} links, {moving} moving joints.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch the \
+             motion\n",
+            out.display(),
+            robot.links.len(),
+            out.display()
+        ));
+        Ok(Exit::Done)
+    }
+}

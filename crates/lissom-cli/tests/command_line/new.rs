@@ -1,0 +1,183 @@
+//! `lissom new`, `import`, `completions` and `man`: what they write can be used.
+
+use std::fs;
+
+use lissom::core::motion::Vector3;
+
+use crate::support::{Folder, lissom, summary};
+
+#[test]
+fn a_new_model_runs_as_it_is() {
+    let folder = Folder::new("new");
+    let made = lissom(&["new", "press"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    assert!(made.output.contains("lissom view press.toml --open"), "{}", made.output);
+    // The first line names a schema for editors, which is there.
+    let text = fs::read_to_string(folder.path().join("press.toml")).unwrap();
+    let schema = text.lines().next().unwrap().strip_prefix("#:schema ./").unwrap();
+    let schema = fs::read_to_string(folder.path().join(schema)).unwrap();
+    assert_eq!(schema, lissom(&["schema"], folder.path()).output);
+    let check = lissom(&["check", "press.toml"], folder.path());
+    assert_eq!((check.code, check.errors.as_str()), (0, ""), "{}", check.output);
+    let run = lissom(&["run", "press.toml", "--no-plots", "--quiet"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let facts = summary(&folder.path().join("out/press"));
+    assert_eq!((facts["title"].as_str(), facts["stopped"].as_str()), (Some("press"), Some("end")));
+    // The slider goes to and fro by twice the radius of the crank.
+    let table = fs::read_to_string(folder.path().join("out/press/history.csv")).unwrap();
+    let record = lissom::Record::from_csv(&table).unwrap();
+    let x = record.column("slider", "x").unwrap();
+    let ends =
+        x.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+    assert!((ends[1] - ends[0] - 0.2).abs() < 1e-3, "{ends:?}");
+    let across = ["y", "z"].map(|letter| record.column("slider", letter).unwrap());
+    assert!(across.iter().all(|values| values.iter().all(|value| value.abs() < 1e-9)));
+    assert!(Vector3::new(ends[0], 0.0, 0.0).norm() > 0.2);
+    // It starts in equilibrium: while the motor is slow the rod hangs through as at the start.
+    let sag = record.column("bending", "u3").unwrap();
+    assert!(
+        sag[0] < -1e-5 && sag[..5].iter().all(|value| (value - sag[0]).abs() < 0.05 * sag[0].abs()),
+        "{:?}",
+        &sag[..5]
+    );
+}
+
+#[test]
+fn an_imported_robot_runs_as_it_is() {
+    let folder = Folder::new("import");
+    folder.write("arm.urdf", include_str!("../../../lissom/tests/machines/robots/two_links.urdf"));
+    let made = lissom(&["import", "arm.urdf", "--position", "elbow=0.5"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    assert!(made.output.contains("2 moving joints"), "{}", made.output);
+    let run =
+        lissom(&["run", "arm.toml", "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let table = fs::read_to_string(folder.path().join("out/arm/history.csv")).unwrap();
+    let record = lissom::Record::from_csv(&table).unwrap();
+    assert!((record.column("elbow", "angle").unwrap()[0] - 0.5).abs() < 1e-12);
+    let again = lissom(&["import", "arm.urdf"], folder.path());
+    assert_eq!(again.code, 2);
+    assert!(again.errors.contains("already exists"), "{}", again.errors);
+    let wrong = lissom(&["import", "arm.urdf", "--out", "b.toml", "--position", "knee=1"], folder.path());
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.errors.contains("no moving joint `knee`"), "{}", wrong.errors);
+    assert!(!folder.path().join("b.toml").exists());
+}
+
+/// The description of MuJoCo, by the same command: what is omitted is reported, what acts and is unknown is rejected.
+#[test]
+fn an_imported_robot_of_mujoco_runs_as_it_is() {
+    let folder = Folder::new("import-mjcf");
+    let robot = "<mujoco model='cart'><option gravity='0 0 -9.81'/><worldbody><light pos='0 0 3'/>
+        <body name='cart'><joint name='rail' type='slide' axis='1 0 0' damping='0.5'/><geom type='box' size='0.2 0.1 0.1'/>
+         <body name='pole'><joint name='hinge' axis='0 1 0' ref='0'/><geom type='capsule' size='0.02' fromto='0 0 0 0 0 0.6'/></body>
+        </body></worldbody>TENDON<actuator><motor joint='rail'/></actuator></mujoco>";
+    folder.write("cart.xml", &robot.replace("TENDON", ""));
+    let made = lissom(&["import", "cart.xml", "--position", "hinge=0.1"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    for words in ["3 links, 2 moving joints", "omitted: actuators", "1 <motor>", "1 <light>"] {
+        assert!(made.output.contains(words), "{}", made.output);
+    }
+    let run =
+        lissom(&["run", "cart.toml", "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let table = fs::read_to_string(folder.path().join("out/cart/history.csv")).unwrap();
+    let record = lissom::Record::from_csv(&table).unwrap();
+    assert!((record.column("hinge", "angle").unwrap()[0] - 0.1).abs() < 1e-12);
+    assert!(*record.column("hinge", "angle").unwrap().last().unwrap() > 0.1, "it falls");
+    folder
+        .write("held.xml", &robot.replace("TENDON", "<tendon><spatial name='rope' stiffness='3'/></tendon>"));
+    let refused = lissom(&["import", "held.xml"], folder.path());
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.errors.contains("the tendon `rope`") && refused.errors.contains("--without unsupported"),
+        "{}",
+        refused.errors
+    );
+    let reported = lissom(&["import", "held.xml", "--without", "unsupported"], folder.path());
+    assert_eq!(reported.code, 0, "{}", reported.errors);
+    assert!(reported.output.contains("omitted: the tendon `rope`"), "{}", reported.output);
+}
+
+/// A model as URDF, and the model that comes back of it.
+#[test]
+fn a_model_goes_to_urdf_and_back() {
+    let folder = Folder::new("export-urdf");
+    folder.write("arm.urdf", include_str!("../../../lissom/tests/machines/robots/two_links.urdf"));
+    assert_eq!(lissom(&["import", "arm.urdf", "--position", "elbow=0.5"], folder.path()).code, 0);
+    let made = lissom(&["export", "arm.toml", "--format", "urdf", "--out", "again.urdf"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    for words in [
+        "again.urdf",
+        "omitted: 3 outputs",
+        "omitted: stiffness and losses of the stops",
+        "--position elbow=0.5",
+    ] {
+        assert!(made.output.contains(words), "{}", made.output);
+    }
+    let back = lissom(&["import", "again.urdf", "--position", "elbow=0.5"], folder.path());
+    assert_eq!(back.code, 0, "{}", back.errors);
+    let tables = ["arm", "again"].map(|name| {
+        let file = format!("{name}.toml");
+        let run =
+            lissom(&["run", &file, "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let table = fs::read_to_string(folder.path().join(format!("out/{name}/history.csv"))).unwrap();
+        lissom::Record::from_csv(&table).unwrap()
+    });
+    for joint in ["shoulder", "elbow"] {
+        let [here, there] =
+            tables.each_ref().map(|table| *table.column(joint, "angle").unwrap().last().unwrap());
+        assert!((here - there).abs() < 1e-11, "{joint}: {here} {there}");
+    }
+    let text = fs::read_to_string(folder.path().join("arm.toml")).unwrap();
+    folder.write(
+        "spring.toml",
+        &format!("{text}\n[springs.s]\nkind = \"torsional\"\njoint = \"elbow\"\nstiffness = 1\n"),
+    );
+    let refused = lissom(&["export", "spring.toml", "--format", "urdf"], folder.path());
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.errors.contains("the spring `s`") && !folder.path().join("spring.urdf").exists(),
+        "{}",
+        refused.errors
+    );
+    let reported =
+        lissom(&["export", "spring.toml", "--format", "urdf", "--without", "unsupported"], folder.path());
+    assert!(reported.code == 0 && reported.output.contains("omitted: the spring `s`"), "{}", reported.output);
+}
+
+#[test]
+fn what_is_there_is_not_overwritten() {
+    let folder = Folder::new("new-there");
+    folder.write("press.toml", "mine");
+    let made = lissom(&["new", "press.toml"], folder.path());
+    assert_eq!(made.code, 2);
+    assert!(made.errors.contains("already exists"), "{}", made.errors);
+    assert_eq!(fs::read_to_string(folder.path().join("press.toml")).unwrap(), "mine");
+    assert_eq!(lissom(&["new", "a\"b"], folder.path()).code, 0);
+    assert_eq!(lissom(&["check", "a\"b.toml"], folder.path()).code, 0);
+    assert_eq!(lissom(&["new", "nowhere/press"], folder.path()).code, 3);
+}
+
+#[test]
+fn shells_and_the_manual_know_all_commands() {
+    let folder = Folder::new("completions");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let made = lissom(&["completions", shell], folder.path());
+        assert_eq!(made.code, 0, "{}", made.errors);
+        for command in ["run", "view", "live", "study", "completions"] {
+            assert!(made.output.contains(command), "{shell}: {command}");
+        }
+    }
+    assert_eq!(lissom(&["completions", "cmd"], folder.path()).code, 2);
+    let page = lissom(&["man"], folder.path());
+    assert!(
+        page.code == 0 && page.output.contains(".TH lissom 1") && page.output.contains("lissom\\-view"),
+        "{}",
+        page.output
+    );
+    let page = lissom(&["man", "view"], folder.path());
+    assert!(page.code == 0 && page.output.contains("\\-\\-html"), "{}", page.output);
+    assert_eq!(lissom(&["man", "nothing"], folder.path()).code, 2);
+}
