@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use clap::Args;
 use lissom::core::ports::Ports;
-use lissom::core::registry::{Parameter, ParameterType};
+use lissom::core::registry::Parameter;
 use lissom::model::lower::registry::registry;
 use lissom::model::registry::{ChoiceEntry, DEFAULT_SCHEMES, KindEntry, Registry};
 use lissom::model::{Form, FormKey, forms, function_names, meant, topic, topics};
@@ -195,16 +195,10 @@ impl Catalogue<'_> {
 
     /// All kinds whose name contains `wanted`, as JSON.
     fn for_programs(&self, wanted: &str) -> Result<Exit, Failure> {
-        let parameter = |name: &str, holds: &str, unit: &str, required: bool, summary: &str| json!({ "name": name, "holds": holds, "unit": unit, "required": required, "summary": summary });
-        let of_form = |form: &Form| -> Value {
-            let keys = form.keys.iter();
-            keys.map(|key| parameter(key.name, &key.holds, key.unit, key.required, &key.summary)).collect()
-        };
-        let list = |own: &[Parameter]| -> Value {
-            let own = own.iter();
-            own.map(|own| parameter(own.name, &holds(own.holds), own.unit, own.required, &own.meaning()))
-                .collect()
-        };
+        let parameter = |key: &FormKey| json!({ "name": key.name, "holds": key.holds, "unit": key.unit, "required": key.required, "summary": key.summary });
+        let of_form = |form: &Form| -> Value { form.keys.iter().map(parameter).collect() };
+        let list =
+            |own: &[Parameter]| -> Value { own.iter().map(|own| parameter(&FormKey::from(own))).collect() };
         let mut all = json!({});
         let mut count = 0;
         for forms in self.forms.chunk_by(|a, b| a.heading == b.heading) {
@@ -308,32 +302,6 @@ fn of_key(key: &FormKey) -> String {
     let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
     let need = if key.required { "" } else { ", optional" };
     format!("{}: {}{unit}{need}. {}", key.name, key.holds, key.summary)
-}
-
-fn holds(holds: ParameterType) -> String {
-    match holds {
-        ParameterType::Number => "number".to_owned(),
-        ParameterType::Positive => "positive number".to_owned(),
-        ParameterType::NotNegative => "number, not negative".to_owned(),
-        ParameterType::Between(low, high) => format!("number from {low:.4} to {high}"),
-        ParameterType::Vector | ParameterType::GlobalVector => "three numbers".to_owned(),
-        ParameterType::Direction | ParameterType::DirectionOr(_) => "direction".to_owned(),
-        ParameterType::Flag => "true or false".to_owned(),
-        ParameterType::Function => "number or expression of t".to_owned(),
-        ParameterType::Size => "number or expression of t, inputs, signals, states and outputs".to_owned(),
-        ParameterType::Force([first, second]) => {
-            format!("number, expression of {first} and {second}, or table over {first}")
-        }
-        ParameterType::Matrix => "six numbers or 6 x 6 matrix".to_owned(),
-        ParameterType::Range => "two ascending numbers".to_owned(),
-        ParameterType::Choice(words) => words.join(" | "),
-        ParameterType::FunctionOf(variable) => format!("number, expression of {variable} or table"),
-        ParameterType::Input => "name of an input".to_owned(),
-        ParameterType::Equation => "expression of coordinates, such as arm.angle, and of t".to_owned(),
-        ParameterType::Numbers => "list of numbers".to_owned(),
-        ParameterType::SquareMatrix => "number, diagonal or square matrix by rows".to_owned(),
-        ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
-    }
 }
 
 /// The keys of a kind's ports in one line. A key with an explanation ends with a semicolon.

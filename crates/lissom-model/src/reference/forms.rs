@@ -1,8 +1,10 @@
 //! All forms of the tables of a model file and their keys as texts, for the search by `lissom kinds`.
 
+use lissom_mechanics::registry::Parameter;
+
 use crate::document::tables::variants;
 use crate::expression::FUNCTION_NAMES;
-use crate::format::keys::{Key, Shape};
+use crate::format::keys::{Key, Shape, of_parameter};
 use crate::format::part_tables::part_motion;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, tops};
@@ -87,6 +89,12 @@ pub fn forms(registry: &Registry) -> Vec<Form> {
         }
     }
     all
+}
+
+impl From<&Parameter> for FormKey {
+    fn from(parameter: &Parameter) -> Self {
+        of_key(&of_parameter(parameter))
+    }
 }
 
 fn of_key(key: &Key) -> FormKey {
