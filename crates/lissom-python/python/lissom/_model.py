@@ -227,11 +227,11 @@ class Model(ModelTables):
         state = None if about is None else _about(about)
         request = _request(count=_at_least(1, count, "count"), about=state, shift=None if shift is None else float(shift))
         page = functools.partial(_lissom.modes_animation, self._native, request)
-        return self._checked(Modes(_lissom.analyse(self._native, "modes", request), page))
+        return self._warned(Modes(_lissom.analyse(self._native, "modes", request), page))
 
     def buckling(self, count: int | None = None) -> Buckling:
         """Load factors at which the model buckles, by a linear estimate, as `lissom buckling` finds them."""
-        return self._checked(Buckling(self._analysed("buckling", count=_at_least(1, count, "count"))))
+        return self._warned(Buckling(self._analysed("buckling", count=_at_least(1, count, "count"))))
 
     def path(self, **analysis: Any) -> Path:
         """Follows the equilibria under the loads times a load factor, as `lissom run` does for an analysis of kind `path`.
@@ -283,7 +283,7 @@ class Model(ModelTables):
         """
         vary = {"path": path, "from": float(start), "to": float(end), "values": _at_least(2, values, "values")}
         multiples = [_at_least(1, ray, "rays") for ray in rays]
-        return self._checked(Campbell(self._analysed("campbell", vary=vary, count=_at_least(1, count, "count"), rays=multiples)))
+        return self._warned(Campbell(self._analysed("campbell", vary=vary, count=_at_least(1, count, "count"), rays=multiples)))
 
     def response(
         self,
@@ -307,7 +307,7 @@ class Model(ModelTables):
         """
         ports = {"inputs": _names(inputs), "outputs": _names(outputs), "about": _about(about)}
         count = _at_least(2, points, "points")
-        return self._checked(Response(self._analysed("response", **ports, **{"from": float(start), "to": float(end)}, points=count)))
+        return self._warned(Response(self._analysed("response", **ports, **{"from": float(start), "to": float(end)}, points=count)))
 
     def linearize(
         self, inputs: str | Sequence[str] = (), outputs: str | Sequence[str] = (), *, about: About = "static"
@@ -320,13 +320,13 @@ class Model(ModelTables):
             about: the state, as for `modes`.
         """
         files = self._analysed("linearize", inputs=_names(inputs), outputs=_names(outputs), about=_about(about))
-        return self._checked(linear_model(files))
+        return self._warned(linear_model(files))
 
     def _analysed(self, name: str, **request: Any) -> Files:
         """The files of an analysis."""
         return _lissom.analyse(self._native, name, _request(**request))
 
-    def _checked(self, found: Report) -> Report:
+    def _warned(self, found: Report) -> Report:
         for words in found.warnings:
             warnings.warn(words, ModelWarning, stacklevel=3)
         return found
