@@ -3,6 +3,7 @@
 pub mod compliance;
 pub mod creep_law;
 pub mod curves;
+pub(crate) mod force_over_gap;
 pub mod gap;
 pub mod hollow;
 pub mod pairs;

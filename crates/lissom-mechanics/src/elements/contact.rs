@@ -30,12 +30,13 @@ use super::{
     add_block,
 };
 use crate::contact::compliance::Compliance;
+use crate::contact::force_over_gap::ForceOverGap;
 use crate::contact::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 use crate::contact::hollow::Hollow;
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
-use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw, scaled, sum};
+use crate::law::VisitLaw;
 use crate::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 
 /// Rows of the states of the bristles, after two nodes.
@@ -45,8 +46,6 @@ const BRISTLES: usize = 12;
 const ELASTIC_SHARE: f64 = 0.8;
 /// Share of the deflection at slip from which bristles are reported to slip.
 const SLIPPING: f64 = 0.95;
-/// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
-const SMALL_DEPTH: f64 = 1e-6;
 
 /// Dissipation of the normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -661,7 +660,7 @@ impl ForceLaws for Contact {
         let (x, rotation) = arguments.split_at_mut(3);
         x.copy_from_slice(motion.position.as_slice());
         rotation.copy_from_slice(motion.rotation.as_slice());
-        let law = ForceOverGap { pair: &*self.pair, compliance: self.compliance };
+        let law = ForceOverGap { gap: &*self.pair, compliance: self.compliance };
         visit(&law, &arguments[..self.pair.arguments()]);
     }
 }
@@ -686,77 +685,6 @@ impl StrainSlopes for Contact {
                 out[self.first_rotation() + k] += force * resistance.stiffness() * bristle;
             }
         }
-    }
-}
-
-/// The elastic normal force as a scalar law of x, and of R where the gap depends on it. Two solids that pass each other within a
-/// step are as far apart at its ends as if they had never met; the range of the gap follows from those of its arguments: it changes
-/// by no more than x does.
-struct ForceOverGap<'p> {
-    pair: &'p dyn Pair,
-    compliance: Compliance,
-}
-
-impl ForceOverGap<'_> {
-    fn force(&self, gap: f64) -> f64 {
-        if gap < 0.0 { self.compliance.force(-gap, 0.0, 0.0)[0] } else { 0.0 }
-    }
-}
-
-impl ScalarLaw for ForceOverGap<'_> {
-    fn value(&self, _: f64, arguments: &[f64]) -> f64 {
-        self.force(self.pair.gap_at(arguments))
-    }
-
-    fn is_smooth(&self) -> bool {
-        false
-    }
-
-    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
-        if arguments.iter().all(|ends| !ends[0].is_finite()) {
-            return None;
-        }
-        if arguments.iter().flatten().any(|end| !end.is_finite()) {
-            // The force of the deepest penetration is not a measure of the forces of a motion.
-            return Some([0.0, self.force(-SMALL_DEPTH)]);
-        }
-        let [low, high] = self.pair.range(arguments);
-        Some([self.force(high), self.force(low)])
-    }
-
-    /// Of a point above a plane. The bounds of a separate pair's force are zero.
-    fn has_enclosure(&self) -> bool {
-        self.pair.is_linear()
-    }
-
-    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        if !self.has_enclosure() {
-            return None;
-        }
-        let ranges: [Interval; MAX_ARGUMENTS] =
-            std::array::from_fn(|k| arguments.get(k).map_or([0.0; 2], |own| own.value));
-        let [low, high] = self.pair.range(&ranges[..arguments.len()]);
-        if low > 0.0 {
-            return Some(Enclosure::of_constant([0.0; 2]));
-        }
-        if high >= 0.0 {
-            return None;
-        }
-        // In contact: g = n·x - r.
-        let n = self.pair.gap(&Vector3::zeros(), &Matrix3::identity()).normal;
-        let along = |of: fn(&Enclosure) -> Interval| {
-            (0..3).fold([0.0; 2], |all, k| sum(all, scaled(n[k], of(&arguments[k]))))
-        };
-        let gap =
-            Enclosure { value: [low, high], first: along(|own| own.first), second: along(|own| own.second) };
-        let Compliance { stiffness, exponent } = self.compliance;
-        let of = |power: f64, factor: f64| {
-            let [one, other] = [-high, -low].map(|depth| factor * depth.powf(power));
-            [one.min(other), one.max(other)]
-        };
-        let slope = of(exponent - 1.0, -stiffness * exponent);
-        let bend = of(exponent - 2.0, stiffness * exponent * (exponent - 1.0));
-        Some(gap.through([of(exponent, stiffness), slope, bend]))
     }
 }
 

@@ -45,7 +45,6 @@ pub mod relative_increment;
 pub(crate) mod relative_jets;
 pub mod revolute;
 pub mod rigid_contact;
-mod rigid_gap;
 pub mod rigid_link;
 pub mod rolling;
 pub(crate) mod scalar_batch;

@@ -22,7 +22,7 @@ use nalgebra::{RowVector6, SMatrix};
 use super::constraint::{Constraint, Level, Port};
 use super::evaluation_point::Increments;
 use super::frame_pair::{FramePair, RelativeMotion};
-use super::rigid_gap::Penetration;
+use crate::contact::force_over_gap::{ForceOverGap, NOTHING, PENETRATION};
 use crate::contact::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 use crate::kinematics::local_derivatives::add_block;
 use crate::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Quantity};
@@ -516,8 +516,9 @@ impl NonPenetration {
         let (x, rotation) = arguments.split_at_mut(3);
         x.copy_from_slice(motion.position.as_slice());
         rotation.copy_from_slice(motion.rotation.as_slice());
-        let law = Penetration { pair: &*self.0.pair, is_apart: self.0.mode(at) == Mode::Open };
-        visit(&law, &arguments[..law.pair.arguments()]);
+        let compliance = if self.0.mode(at) == Mode::Open { PENETRATION } else { NOTHING };
+        let law = ForceOverGap { gap: &*self.0.pair, compliance };
+        visit(&law, &arguments[..law.gap.arguments()]);
     }
 }
 

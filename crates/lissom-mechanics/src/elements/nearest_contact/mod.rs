@@ -21,18 +21,17 @@ use nalgebra::Matrix3x6;
 use super::contact::ContactForces;
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
+use crate::contact::force_over_gap::{Distance, ForceOverGap};
 use crate::contact::gap::side_by_side;
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::centerline::SUPPORT;
 use crate::kinematics::{GROUND, Kinematics, NodeId, Switch};
-use crate::law::{Interval, ScalarLaw, VisitLaw};
+use crate::law::{Interval, VisitLaw};
 use crate::signals::measurement::Gradient;
 use nearest_points::{Nearest, Placed, chord_distance, nearest};
 
 /// Points of both curves.
 const MAX_POINTS: usize = 2 * SUPPORT;
-/// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
-const SMALL_DEPTH: f64 = 1e-6;
 /// Numbers of the law: two ends of the tip and one of the base.
 const ARGUMENTS: usize = 9;
 /// Parameters are not free where the second derivatives are nearly singular: curves are parallel.
@@ -369,63 +368,34 @@ impl ForceLaws for NearestContact {
         for (k, vector) in [tip[0] - base[0], tip[1] - base[0], base[1] - base[0]].iter().enumerate() {
             arguments[3 * k..3 * k + 3].copy_from_slice(vector.as_slice());
         }
-        visit(&ForceOverChords { radius: self.radius, compliance: self.compliance }, &arguments);
+        let gap = ChordDistance { radius: self.radius };
+        visit(&ForceOverGap { gap, compliance: self.compliance }, &arguments);
     }
 }
 
-/// The elastic normal force of the straight lines between the ends of both curves, as a scalar law of these ends. Curves that pass
-/// each other within a step are as far apart at its ends as if they had never met; the distance of the lines changes by no more
-/// than their ends do.
-struct ForceOverChords {
+/// The distance of the straight lines between the ends of both curves, as a function of these ends: it changes by no more than they do.
+struct ChordDistance {
     radius: f64,
-    compliance: Compliance,
 }
 
-impl ForceOverChords {
-    fn gap(&self, arguments: &[f64]) -> f64 {
+impl Distance for ChordDistance {
+    fn at(&self, arguments: &[f64]) -> f64 {
         let [from, to, base] = [0, 3, 6].map(|k| Vector3::from_column_slice(&arguments[k..k + 3]));
         chord_distance([from, to], &base) - self.radius
     }
 
-    fn force(&self, gap: f64) -> f64 {
-        if gap < 0.0 { self.compliance.force(-gap, 0.0, 0.0)[0] } else { 0.0 }
-    }
-
-    /// Range of the gap.
-    fn gaps(&self, arguments: &[Interval]) -> Interval {
+    fn range(&self, arguments: &[Interval]) -> Interval {
         let middle: [f64; ARGUMENTS] = std::array::from_fn(|k| 0.5 * (arguments[k][0] + arguments[k][1]));
         let half = |from: usize| {
             let all = &arguments[from..from + 3];
             all.iter().map(|[low, high]| 0.25 * (high - low) * (high - low)).sum::<f64>().sqrt()
         };
         let change = half(0).max(half(3)) + half(6);
-        let gap = self.gap(&middle);
+        let gap = self.at(&middle);
         [gap - change, gap + change]
     }
-}
 
-impl ScalarLaw for ForceOverChords {
-    fn value(&self, _: f64, arguments: &[f64]) -> f64 {
-        self.force(self.gap(arguments))
-    }
-
-    fn is_smooth(&self) -> bool {
-        false
-    }
-
-    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
-        if arguments.iter().all(|ends| !ends[0].is_finite()) {
-            return None;
-        }
-        if arguments.iter().flatten().any(|end| !end.is_finite()) {
-            // The force of the deepest penetration is not a measure of the forces of a motion.
-            return Some([0.0, self.force(-SMALL_DEPTH)]);
-        }
-        let [low, high] = self.gaps(arguments);
-        Some([self.force(high), self.force(low)])
-    }
-
-    fn has_enclosure(&self) -> bool {
-        false
+    fn slope(&self) -> Option<Vector3> {
+        None
     }
 }
