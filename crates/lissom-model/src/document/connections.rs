@@ -11,7 +11,7 @@ use super::{
 };
 use crate::line::Line;
 use crate::parts::context::Context;
-use crate::text::report::{Located, Problem};
+use crate::text::report::{Located, Problem, Span};
 
 /// Where the nodes of the parts are.
 pub(super) struct Places {
@@ -233,10 +233,17 @@ fn complete(context: &Context<'_>, document: &Document) {
     ];
     for (table, count) in read {
         let names = context.names(table);
-        if let Some((_, span)) = names.first().filter(|_| names.len() != count && !context.has_errors()) {
-            let message = format!("an entry of [{table}] could not be read");
-            context.fail::<()>(*span, message, "please report this: the mistake in it is not recognised");
+        if let Some((_, span)) = names.first().filter(|_| names.len() != count) {
+            unread(context, &format!("an entry of [{table}]"), *span);
         }
+    }
+}
+
+/// Reports what could not be read without any other error.
+pub(super) fn unread(context: &Context<'_>, what: &str, span: Span) {
+    if !context.has_errors() {
+        let message = format!("{what} could not be read");
+        context.fail::<()>(span, message, "please report this: the mistake in it is not recognised");
     }
 }
 

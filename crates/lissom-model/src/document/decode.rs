@@ -99,6 +99,9 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let events = events::events(context);
     let (initial, initial_of_parts) = initial::initial(context);
     let assembly = assembly::assembly(context);
+    if let Some((_, span)) = context.top("assembly").filter(|_| assembly.is_none()) {
+        connections::unread(context, "[assembly]", span);
+    }
     let outputs = outputs::outputs(context, registry);
     let analysis = analysis::analysis(context, registry);
     let document = Document {

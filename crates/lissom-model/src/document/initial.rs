@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use lissom_motion::Vector3;
 
 use super::InitialMotion;
+use super::connections::unread;
 use crate::format::part_tables;
 use crate::format::suggest;
 use crate::parts::context::Context;
@@ -27,15 +28,20 @@ pub(super) fn initial(context: &Context<'_>) -> (Option<InitialMotion>, BTreeMap
         own.iter().filter_map(|(key, ..)| table.get(*key).map(|entry| ((*key).to_owned(), entry.clone())));
     let own = Node { value: Value::Table(own.collect()), ..node.clone() };
     let all = Reader::open(context, &own, ("[initial]".to_owned(), name), part_tables::initial())
-        .and_then(|reader| motion(&reader));
+        .and_then(|reader| motion_of_model(&reader));
+    if all.is_none() {
+        unread(context, "[initial]", name);
+    }
     let mut of_parts = BTreeMap::new();
     let mut owners: BTreeMap<String, (Span, &str)> = BTreeMap::new();
     for (motion_name, key, node) in others {
         let what = format!("motion `{motion_name}` of [initial]");
-        let Some(reader) = Reader::open(context, node, (what, key), part_tables::part_motion()) else {
+        let reader = Reader::open(context, node, (what.clone(), key), part_tables::part_motion());
+        let motion = reader.as_ref().and_then(motion);
+        let (Some(reader), Some(motion)) = (reader, motion) else {
+            unread(context, &what, key);
             continue;
         };
-        let Some(motion) = motion(&reader) else { continue };
         for (part, span) in parts(&reader, "parts") {
             if let Some((first, other)) = owners.insert(part.clone(), (span, motion_name)) {
                 let message = format!("`{part}` moves at the start as `{other}` and as `{motion_name}`");
@@ -57,6 +63,13 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
         None => Vector3::zeros(),
         Some(node) => reader.context.place(node, &reader.words("about"))?.value,
     };
+    let (velocity, angular_velocity) = (vector("velocity")?, vector("angular_velocity")?);
+    let (equilibrium, steady_rotation, follow_drives) = (false, false, true);
+    Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation, follow_drives })
+}
+
+/// That of the whole model, which may follow from its loads or drives.
+fn motion_of_model(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
     let flag = |key: &str| reader.flag(key).map(|flag| flag.value);
     let (equilibrium, steady_rotation) = (flag("equilibrium")?, flag("steady_rotation")?);
     if equilibrium && steady_rotation {
@@ -66,9 +79,8 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
             "remove one of them",
         );
     }
-    let (velocity, angular_velocity) = (vector("velocity")?, vector("angular_velocity")?);
     let follow_drives = flag("follow_drives")?;
-    Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation, follow_drives })
+    Some(InitialMotion { equilibrium, steady_rotation, follow_drives, ..motion(reader)? })
 }
 
 /// The names of bodies, point masses and beams that the list under `key` means, each with its position.

@@ -16,7 +16,7 @@
 //! let hinge = builder.add(Revolute::new(GROUND, rod, [0.0, 1.0, 0.0]).at([0.0; 3]));
 //! let angle = builder.add(Relative::new(hinge));
 //! builder.add(Dynamics::new(0.5).relative_tolerance(1e-8));
-//! let mut session = builder.build()?.session(&[])?;
+//! let mut session = builder.build()?.session()?;
 //! session.step_to(0.2)?;
 //! assert!(session.output(angle)?[0] > 0.3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
