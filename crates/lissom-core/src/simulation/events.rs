@@ -128,7 +128,7 @@ impl Simulation {
         let changed = if contacts.is_empty() {
             self.change_held_values(at)
         } else {
-            self.change_contacts(&contacts, Some(at.held), [time; 2])
+            self.switch_constraints(&contacts, Some(at.held), [time; 2])
         };
         changed.map_err(|error| StepError::Velocities { time, error })?;
         self.events.renew(&self.system, &self.state, &happened);

@@ -11,6 +11,7 @@ use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
 use crate::simulation::Simulation;
+use crate::simulation::rigid_contacts::impact_of_latches;
 use crate::simulation::signal_history::{Break, SignalHistory};
 use crate::system::{State, System};
 
@@ -129,11 +130,11 @@ impl Simulation {
             return Ok(self.change_held_values(at)?);
         }
         let mut state = self.state.clone();
-        let engages = self.engages(&at);
+        let (_, engages) = self.latches_switch(&at.held);
         state.kinematics = at;
         if let Some(initial) = &mut self.held_values {
             if engages {
-                initial.velocities(&self.system, &mut state)?;
+                impact_of_latches(&self.system, initial, &mut state)?;
                 let [before, after] = [&self.state, &state].map(|state| &state.kinematics);
                 self.energy_balance.record_impact(&self.system, before, after, None);
             }
@@ -145,22 +146,12 @@ impl Simulation {
         self.begin_contacts().map_err(InputError::Initial)
     }
 
-    /// Whether a latch that was free engages with the held values of `at`.
-    fn engages(&self, at: &Kinematics) -> bool {
-        let is_new = |latch: &Latch| {
-            let [now, before] = [at, &self.state.kinematics].map(|at| holds(at.held[latch.engaged.index()]));
-            now && !before
-        };
-        self.system.latches().iter().any(is_new)
-    }
-
-    /// Whether a latch engages or disengages with the held values of `at`.
-    fn switches_latch(&self, at: &Kinematics) -> bool {
-        let is_other = |latch: &Latch| {
-            let [now, before] = [at, &self.state.kinematics].map(|at| holds(at.held[latch.engaged.index()]));
-            now != before
-        };
-        self.system.latches().iter().any(is_other)
+    /// Whether a latch engages or disengages with these held values, and whether one engages.
+    pub(super) fn latches_switch(&self, held: &[f64]) -> (bool, bool) {
+        let present = &self.state.kinematics.held;
+        let of = |latch: &Latch| [held, present].map(|values| holds(values[latch.engaged.index()]));
+        let all = || self.system.latches().iter().map(of);
+        (all().any(|[now, before]| now != before), all().any(|[now, before]| now && !before))
     }
 
     /// Changes to the held values of `at`, which is otherwise the present state: accelerations, multipliers and the rates of states
@@ -169,47 +160,18 @@ impl Simulation {
     /// # Errors
     /// If there are no consistent accelerations; the state is then unchanged.
     pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
-        if self.system.has_rigid_contacts() {
+        if self.system.has_rigid_contacts() || self.latches_switch(&at.held).0 {
             let time = self.state.kinematics.time;
-            return self.change_contacts(&[], Some(at.held), [time; 2]);
-        }
-        let engages = self.engages(&at);
-        let switches = self.switches_latch(&at);
-        if switches {
-            // With the tangent of the latch's former equation, the new one would be solved to the tolerance only, and leave a force of
-            // that size where there is none.
-            self.integrator.jacobian_state.has_tangent = false;
+            return self.switch_constraints(&[], Some(at.held), [time; 2]);
         }
         let Some(initial) = &mut self.held_values else {
             self.state.kinematics = at;
             return Ok(());
         };
-        if !switches {
-            // The matrix changes only if a latch switches.
-            initial.factor(&self.system, &self.state, Inertias::All)?;
-            let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
-            self.state.kinematics.held = at.held;
-            self.add_jump(jump);
-            return Ok(());
-        }
-        let kept = self.state.clone();
-        let before = initial.acceleration_at(&self.system, &self.state)?;
+        // The matrix does not change.
+        initial.factor(&self.system, &self.state, Inertias::All)?;
+        let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
         self.state.kinematics.held = at.held;
-        let after =
-            if engages { initial.velocities(&self.system, &mut self.state).map(|_| ()) } else { Ok(()) }
-                .and_then(|()| initial.acceleration_at(&self.system, &self.state));
-        let mut jump = match after {
-            Ok(after) => after,
-            Err(error) => {
-                self.state = kept;
-                return Err(error);
-            }
-        };
-        if engages {
-            let [before, after] = [&kept, &self.state].map(|state| &state.kinematics);
-            self.energy_balance.record_impact(&self.system, before, after, None);
-        }
-        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
         self.add_jump(jump);
         Ok(())
     }
@@ -221,7 +183,7 @@ impl Simulation {
     /// If there are no consistent accelerations.
     pub(crate) fn jump_between(&mut self, earlier: f64, later: f64) -> Result<(), InitialError> {
         if self.system.has_rigid_contacts() {
-            return self.change_contacts(&[], None, [earlier, later]);
+            return self.switch_constraints(&[], None, [earlier, later]);
         }
         let Some(initial) = &mut self.held_values else { return Ok(()) };
         let time = self.state.kinematics.time;

@@ -1,4 +1,4 @@
-//! Impacts at rigid contacts, and the modes of all rigid contacts between two steps.
+//! Constraints that switch between two steps: impacts of latches and at rigid contacts, and the modes of all rigid contacts.
 //!
 //! Legend: u velocity of the tip's point at a contact before (-) and after (+) an impact, n normal, e restitution.
 //!
@@ -241,6 +241,21 @@ pub(super) fn resolve(
     }
     share(system, initial, (&candidates, &resting, band), state)?;
     Ok(outcome)
+}
+
+/// Velocities after the impact of latches that engage. Contacts do not take part: their own impact, which obeys the latches, follows.
+pub(super) fn impact_of_latches(
+    system: &System,
+    initial: &mut ConsistentInitialConditions,
+    state: &mut State,
+) -> Result<(), InitialError> {
+    let held = state.kinematics.held.clone();
+    for contact in system.rigid_contacts() {
+        set_mode(contact, Mode::Open, &mut state.kinematics);
+    }
+    let found = initial.velocities(system, state);
+    state.kinematics.held = held;
+    found.map(|_| ())
 }
 
 /// Solves an impact at all contacts.
@@ -500,21 +515,27 @@ impl Simulation {
         Ok(())
     }
 
-    /// Changes held values, or the time at which functions of time are evaluated, and solves impacts of contacts that `touched`;
-    /// accelerations, multipliers and the rates of states jump.
+    /// Changes held values, or the time at which functions of time are evaluated, and solves impacts of latches that engage and of
+    /// contacts that `touched`; accelerations, multipliers and the rates of states jump.
     ///
     /// # Errors
     /// If there are no consistent forces; the state is then unchanged.
-    pub(super) fn change_contacts(
+    pub(super) fn switch_constraints(
         &mut self,
         touched: &[usize],
         held: Option<Vec<f64>>,
         [earlier, later]: [f64; 2],
     ) -> Result<(), InitialError> {
+        // With the tangent of a former equation, the new one would be solved to the tolerance only, and leave a force of that size
+        // where there is none.
         self.integrator.jacobian_state.has_tangent = false;
-        let Some(initial) = &mut self.held_values else { return Ok(()) };
         let kept = self.state.clone();
-        let time = self.state.kinematics.time;
+        let time = kept.kinematics.time;
+        let engages = held.as_ref().is_some_and(|held| self.latches_switch(held).1);
+        let Some(initial) = &mut self.held_values else {
+            self.state.kinematics.held = held.unwrap_or(kept.kinematics.held);
+            return Ok(());
+        };
         let near = [CLOSED, BAND].map(|share| share * self.integrator.representative.length);
         let (system, state) = (&self.system, &mut self.state);
         let change = || {
@@ -528,17 +549,27 @@ impl Simulation {
             if let Some(held) = held {
                 state.kinematics.held = held;
             }
+            let mut latched = None;
+            if engages {
+                impact_of_latches(system, initial, state)?;
+                latched = Some(state.kinematics.clone());
+            }
             let outcome = resolve(system, initial, state, (touched, near))?;
             let mut jump = initial.acceleration_at(system, state)?;
             jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
-            Ok((outcome, jump))
+            Ok((outcome, jump, latched))
         };
         let changed = change();
         self.state.kinematics.time = time;
         match changed {
-            Ok((outcome, jump)) => {
+            Ok((outcome, jump, latched)) => {
                 self.add_jump(jump);
-                self.finish_contacts(&kept.kinematics, outcome);
+                let mut before = &kept.kinematics;
+                if let Some(latched) = &latched {
+                    self.energy_balance.record_impact(&self.system, before, latched, None);
+                    before = latched;
+                }
+                self.finish_contacts(before, outcome);
                 Ok(())
             }
             Err(error) => {
@@ -591,6 +622,9 @@ impl Simulation {
 
     /// Records an impact, and makes all events of contacts possible.
     fn finish_contacts(&mut self, before: &Kinematics, outcome: Outcome) {
+        if !self.system.has_rigid_contacts() {
+            return;
+        }
         if outcome.lost.is_some() {
             let after = &self.state.kinematics;
             self.energy_balance.record_impact(&self.system, before, after, outcome.lost);

@@ -6,7 +6,7 @@
 //! q̇ = 0 where it is engaged,      μ = 0 where it is not
 //! ```
 //!
-//! The impact without rebound at the instant of latching is computed by `Simulation::change_held_values`.
+//! The impact without rebound at the instant of latching is computed by `Simulation::switch_constraints`.
 
 use super::constraint::{Constraint, Level, Port};
 use super::evaluation_point::Increments;

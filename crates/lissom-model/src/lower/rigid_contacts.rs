@@ -25,10 +25,6 @@ pub(super) fn add(
     builder: &mut Builder,
 ) -> Result<Vec<RigidPoint>, Problem> {
     let name = &entry.name.value;
-    if builder.latch_count() > 0 {
-        let message = format!("contact `{name}`: a model with a latch can have no rigid contacts");
-        return Err(Problem::error(entry.name.span, message).help("remove the latch, or `rigid`"));
-    }
     let mut all: Vec<RigidPoint> = Vec::new();
     for point in points_of_solids(document, entry, names)? {
         let own = if all.is_empty() { name.clone() } else { format!("{name} {}", all.len() + 1) };

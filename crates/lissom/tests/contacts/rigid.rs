@@ -594,3 +594,83 @@ fn what_is_not_available_is_rejected() {
     let error = modes(&Model::from_text("rigid.toml", BALL), &request).expect_err("it has no modes");
     assert!(error.to_string().contains("floor"), "{error}");
 }
+
+/// A sled on the floor, and a carriage on its mast that a latch catches at a height of 0.5 m.
+const SLED: &str = r#"
+lissom = 1
+gravity = [0, 0, -10]
+[ground]
+shape = { kind = "plane" }
+[bodies.sled]
+mass = 2
+inertia = [1, 1, 1]
+shape = { box = [2, 2, 0.2] }
+position = [0, 0, 0.1]
+[bodies.carriage]
+mass = 3
+inertia = [1, 1, 1]
+position = [0, 0, 0.5]
+[contacts.floor]
+base = "ground"
+tip = "sled"
+rigid = true
+[joints.mast]
+kind = "prismatic"
+base = "sled"
+tip = "carriage"
+axis = [0, 0, 1]
+latch = { at = CAUGHT }
+[initial.thrown]
+parts = ["carriage"]
+velocity = [0, 0, SPEED]
+[outputs.sled]
+kind = "position"
+of = "sled"
+[outputs.speed]
+kind = "velocity"
+of = "sled"
+[outputs.carriage]
+kind = "velocity"
+of = "carriage"
+[outputs.floor]
+kind = "contact_force"
+of = "floor"
+[outputs.energy]
+kind = "energy"
+[analysis]
+kind = "dynamics"
+end = 0.6
+step = 1e-3
+"#;
+
+/// Thrown up with 4 m/s and caught at 0.25 m, where √(16 - 5) m/s remain, the carriage lifts the sled: a floor does not hold it.
+#[test]
+fn a_latch_that_catches_a_rising_part_lifts_what_rests_on_the_floor() {
+    let text = SLED.replace("CAUGHT", "0.25").replace("SPEED", "4");
+    for scheme in ["radau-iia", "generalized-alpha", "hht", "energy-decaying"] {
+        let (record, _) = run(&text, &[("analysis.scheme", scheme)]);
+        let common = 3.0 / 5.0 * 11.0_f64.sqrt();
+        let highest = series(&record, "sled.z").iter().copied().fold(0.0, f64::max);
+        let wanted = 0.1 + common * common / 20.0;
+        assert!((highest - wanted).abs() < 1e-5, "{scheme}: {highest} for {wanted}");
+        // They fall together, and the impact on the floor is without rebound.
+        assert!((last(&record, "sled.z") - 0.1).abs() < 1e-8, "{scheme}");
+        assert!((last(&record, "floor.f3") - 50.0).abs() < 1e-5, "{scheme}: {}", last(&record, "floor.f3"));
+    }
+}
+
+/// Thrown down, the carriage stops at once: the floor takes its momentum, and all kinetic energy is dissipated.
+#[test]
+fn a_latch_that_catches_a_falling_part_is_held_by_the_floor() {
+    let text = SLED.replace("CAUGHT", "-0.25").replace("SPEED", "-2");
+    let (record, _) = run(&text, &[]);
+    // 4 + 2·10·0.25 = 9 m²/s².
+    let fallen = record.times.iter().position(|&time| time > 0.1 + 1e-6).unwrap();
+    for (name, wanted) in [("sled.z", 0.1), ("speed.v3", 0.0), ("carriage.v3", 0.0), ("floor.f3", 50.0)] {
+        for value in &series(&record, name)[fallen..] {
+            assert!((value - wanted).abs() < 1e-7, "{name}: {value}");
+        }
+    }
+    let dissipated = series(&record, "energy.total")[0] - last(&record, "energy.total");
+    assert!((dissipated - 0.5 * 3.0 * 9.0).abs() < 1e-9, "{dissipated}");
+}
