@@ -115,7 +115,7 @@ mod tests {
         for kind in registry.joints.iter().chain(&registry.springs).chain(&registry.loads) {
             assert!(text.contains(&format!("### `kind = \"{}\"`", kind.name)), "{}", kind.name);
             for parameter in kind.parameters {
-                assert!(text.contains(parameter.summary), "{}.{}", kind.name, parameter.name);
+                assert!(text.contains(&parameter.meaning()), "{}.{}", kind.name, parameter.name);
             }
         }
         assert!(text.contains("### `[initial.…]`") && text.contains("### `kind = \"expression\"`"));

@@ -395,19 +395,19 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 408;
+    const MAX_CONSTANTS: usize = 406;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 11] = [
         ("lissom-motion", 3030),
         ("lissom-solver", 7000),
         ("lissom-mechanics", 32_530),
-        ("lissom-system", 5210),
+        ("lissom-system", 5240),
         ("lissom-core", 30_390),
         ("lissom-drawing", 1380),
-        ("lissom-model", 31_420),
+        ("lissom-model", 31_440),
         ("lissom", 24_480),
-        ("lissom-cli", 4770),
+        ("lissom-cli", 4730),
         ("lissom-fmi", 660),
         ("lissom-python", 2170),
     ];

@@ -306,7 +306,7 @@ const FLOORS: [(&str, &[&str]); 15] = [
     ("registry.rs", &["kinematics", "law", "relation"]),
     ("diagnostics/", &["diagnostics", "kinematics", "number", "registry"]),
     ("ports.rs", &["kinematics", "registry"]),
-    ("contact/", &["contact", "dual", "kinematics", "registry", "round_off"]),
+    ("contact/", &["contact", "dual", "kinematics", "law", "registry", "round_off"]),
     ("signals/", &["diagnostics", "dual", "instants", "kinematics", "law", "number", "round_off", "signals"]),
     ("joints/", &["contact", "joints", "kinematics", "law", "ports", "registry", "relation", "round_off"]),
     ("evaluation/", &["contact", "evaluation", "joints", "kinematics", "law", "round_off", "signals"]),

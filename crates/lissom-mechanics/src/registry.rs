@@ -178,7 +178,6 @@ pub enum ParameterType {
     /// The size of a load, a factor of all its forces: a number or an expression in the time `t`, inputs, signals,
     /// states and outputs. A load receives functions of time only: if the expression contains more, it multiplies the
     /// unit load.
-    /// size one is multiplied.
     Size,
     /// A force over the two named quantities: a number, an expression of them, or a table over the first.
     Force(&'static [&'static str; 2]),

@@ -54,15 +54,11 @@ impl<G: Distance> ForceOverGap<G> {
     fn force(&self, gap: f64) -> f64 {
         if gap < 0.0 { self.compliance.force(-gap, 0.0, 0.0)[0] } else { 0.0 }
     }
-
-    fn is_zero(&self) -> bool {
-        self.compliance.stiffness == 0.0
-    }
 }
 
 impl<G: Distance> ScalarLaw for ForceOverGap<G> {
     fn value(&self, _: f64, arguments: &[f64]) -> f64 {
-        if self.is_zero() { 0.0 } else { self.force(self.gap.at(arguments)) }
+        if self.compliance == NOTHING { 0.0 } else { self.force(self.gap.at(arguments)) }
     }
 
     fn is_smooth(&self) -> bool {
@@ -70,7 +66,7 @@ impl<G: Distance> ScalarLaw for ForceOverGap<G> {
     }
 
     fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
-        if self.is_zero() {
+        if self.compliance == NOTHING {
             return Some([0.0; 2]);
         }
         if arguments.iter().all(|ends| !ends[0].is_finite()) {
@@ -90,7 +86,7 @@ impl<G: Distance> ScalarLaw for ForceOverGap<G> {
     }
 
     fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        if self.is_zero() {
+        if self.compliance == NOTHING {
             return Some(Enclosure::of_constant([0.0; 2]));
         }
         let n = self.gap.slope()?;

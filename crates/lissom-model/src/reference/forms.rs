@@ -4,10 +4,11 @@ use lissom_mechanics::registry::Parameter;
 
 use crate::document::tables::variants;
 use crate::expression::FUNCTION_NAMES;
-use crate::format::keys::{Key, Shape, of_parameter};
+use crate::format::keys::{Key, of_parameter};
 use crate::format::part_tables::part_motion;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, tops};
+use crate::format::value_types::{RustType, ValueType};
 use crate::format::{suggest, synonyms};
 use crate::registry::Registry;
 
@@ -98,20 +99,10 @@ impl From<&Parameter> for FormKey {
 }
 
 fn of_key(key: &Key) -> FormKey {
-    let choices = match &key.holds {
-        Shape::Choice(words) => words.to_vec(),
-        Shape::Choices(words) => words.to_vec(),
-        _ => Vec::new(),
-    };
+    let ValueType { words, rust, .. } = key.holds.value_type();
+    let choices = if let RustType::Words(all) | RustType::ListOfWords(all) = rust { all } else { Vec::new() };
     let (Key { name, unit, required, .. }, summary) = (key, key.meaning());
-    FormKey {
-        name,
-        holds: key.holds.value_type().words.into_owned(),
-        choices,
-        unit,
-        required: *required,
-        summary,
-    }
+    FormKey { name, holds: words.into_owned(), choices, unit, required: *required, summary }
 }
 
 /// Names of the functions of expressions.

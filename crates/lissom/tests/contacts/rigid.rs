@@ -584,11 +584,6 @@ fn what_is_not_available_is_rejected() {
     assert!(refused(&statics).contains("statics"), "{}", refused(&statics));
     let deep = BALL.replace("position = [0, 0, 0.6]", "position = [0, 0, 0.05]");
     assert!(refused(&deep).contains("penetrate"), "{}", refused(&deep));
-    let latched = format!(
-        "{BALL}\n[bodies.door]\nmass = 1\ninertia = [1, 1, 1]\nposition = [5, 0, 5]\n[joints.hinge]\nkind = \"revolute\"\n\
-         base = \"ground\"\ntip = \"door\"\naxis = [0, 0, 1]\nlatch = {{ at = 1 }}\n"
-    );
-    assert!(refused(&latched).contains("latch"), "{}", refused(&latched));
     let request =
         ModeRequest { count: None, about: Some(OperatingPoint::Undeformed), shift: None, no_plots: true };
     let error = modes(&Model::from_text("rigid.toml", BALL), &request).expect_err("it has no modes");
