@@ -112,7 +112,7 @@ pub(super) fn entry(
         }
     };
     let given = |key: &str| reader.node(key).map(|node| node.span);
-    let friction = friction(reader)?;
+    let friction = friction(reader);
     let touching = match (given("stiffness"), given("stiffness_per_length")) {
         (Some(_), None) => {
             if let Some(span) = given("points") {

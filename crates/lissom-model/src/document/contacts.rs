@@ -247,7 +247,7 @@ pub(super) fn contacts(
         let law = CompliantEntry {
             compliance: compliance(reader)?,
             restitution: restitution(reader)?,
-            friction: friction(reader)?,
+            friction: friction(reader),
             resistance: [
                 reader.number("rolling_friction")?.value,
                 reader.number("torsional_friction")?.value,
@@ -367,14 +367,14 @@ pub(crate) fn words(node: &NodeReference) -> String {
     }
 }
 
-/// The friction of a contact, without bristles, if it has any.
-pub(super) fn friction(reader: &Reader<'_, '_>) -> Option<Option<ContactFriction>> {
+/// The friction of a contact, without bristles, if it has any; none also after an error that is reported.
+pub(super) fn friction(reader: &Reader<'_, '_>) -> Option<ContactFriction> {
     let sliding = reader.number("friction")?.value;
     let at_rest =
         if reader.has("static_friction") { reader.number("static_friction")?.value } else { sliding };
     let (stribeck, deflection) = (reader.number("stribeck")?.value, reader.number("deflection")?.value);
     let law = ContactFriction { bristles: Vec::new(), sliding, at_rest, stribeck, deflection };
-    Some((at_rest > 0.0).then_some(law))
+    (at_rest > 0.0).then_some(law)
 }
 
 fn compliance(reader: &Reader<'_, '_>) -> Option<Result<Compliance, [Located<String>; 2]>> {

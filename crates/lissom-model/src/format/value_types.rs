@@ -173,6 +173,7 @@ impl Shape {
     }
 
     /// The row of the table of types.
+    #[expect(clippy::too_many_lines, reason = "one row per type")]
     pub(crate) fn value_type(&self) -> ValueType {
         use RustType::{Absent, Fixed, Id, ListOfWords, Words};
         let number = || number_in(&json!({}));
