@@ -228,7 +228,7 @@ const tests = {
     assert.deepEqual(complaints(), []);
   },
   "bodies, springs and all kinds of joints": async (browser) => {
-    const text = readFileSync(join(root, "crates/lissom-model/tests/every_kind.toml"), "utf8");
+    const text = readFileSync(join(root, "crates/lissom/tests/models/every_kind.toml"), "utf8");
     const outputs = ["f", "two.end"].map((node, k) => `[outputs.place${k}]\nkind = "position"\nof = "${node}"\n`);
     writeFileSync(join(folder, "every.toml"), text.replace("[analysis]", `${outputs.join("")}[analysis]`));
     const out = view(join(folder, "every.toml"));
