@@ -11,13 +11,11 @@ pub(crate) mod program;
 #[path = "../../../lissom/tests/support/rail.rs"]
 pub(crate) mod rail;
 #[path = "../../../lissom/tests/support/refused.rs"]
-#[allow(dead_code, reason = "tests of the library use the rest")]
 pub(crate) mod refused;
-#[path = "../../../lissom/tests/support/runs.rs"]
-#[allow(dead_code, reason = "tests of the library use the rest")]
-pub(crate) mod runs;
 #[path = "../../../lissom/tests/support/sessions.rs"]
 pub(crate) mod sessions;
+#[path = "../../../lissom/tests/support/starts.rs"]
+pub(crate) mod starts;
 #[path = "../../../lissom/tests/support/truss.rs"]
 pub(crate) mod truss;
 

@@ -82,8 +82,9 @@ fn friction(reader: &Reader<'_, '_>) -> Option<Located<Parameters>> {
     let own = Reader::open(context, node, (reader.words("friction"), node.span), Shape::friction_keys())?;
     let mut parameters = Parameters::new();
     for key in ["coulomb", "stribeck", "viscous", "deflection", "damping"] {
-        if let Some(number) = own.number(key) {
-            parameters.insert(key, Held::Number(number.value));
+        // Defaults are those of the friction element.
+        if own.has(key) {
+            parameters.insert(key, Held::Number(own.number(key)?.value));
         }
     }
     let coulomb = own.number("coulomb")?.value;

@@ -5,7 +5,7 @@ use lissom::analyses::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record};
 use lissom_core::linearized::ModeKind;
 
-use crate::support::refused::refused_on_one_line;
+use crate::support::on_one_line::refused_on_one_line;
 use crate::support::runs::{overrides, session};
 
 const MODEL: &str = include_str!("../../../../verification/wheelset/model.toml");

@@ -2,7 +2,8 @@
 
 use lissom::Model;
 
-use crate::support::refused::{refused, refused_on_one_line};
+use crate::support::on_one_line::refused_on_one_line;
+use crate::support::refused::refused;
 use crate::support::runs::{column, run, session};
 
 /// Two discs on one axis, the second hinged to the first; events latch and release the hinge between them.

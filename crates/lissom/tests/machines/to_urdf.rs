@@ -197,4 +197,9 @@ fn what_the_format_cannot_say_is_named() {
         let found = unsupported(from, to);
         assert!(found.contains(words), "{words}: {found}");
     }
+    // Sliding friction alone can be said; what is omitted is not friction at rest.
+    let grip = "angle = -0.2\n";
+    assert_eq!(unsupported(grip, &format!("{grip}friction = {{ coulomb = 0.5 }}\n")), "");
+    let found = unsupported(grip, &format!("{grip}friction = {{ coulomb = 0.5, stribeck = 0.1 }}\n"));
+    assert!(found.contains("friction at rest of joint `grip`"), "{found}");
 }

@@ -1,6 +1,6 @@
 //! Ropes over pulleys against formulas: tackles, hoists, drums, and ropes that go slack.
 
-use crate::support::refused::refused_on_one_line;
+use crate::support::on_one_line::refused_on_one_line;
 use crate::support::runs::{column, run};
 
 /// A hook of 12 kg on a rail, hung from the ground by four falls of one rope.

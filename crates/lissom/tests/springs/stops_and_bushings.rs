@@ -1,6 +1,6 @@
 //! Stops, friction in joints, bushings, rotors and solids, against closed forms.
 
-use crate::support::refused::refused_on_one_line as refused;
+use crate::support::on_one_line::refused_on_one_line as refused;
 use crate::support::sessions;
 
 use lissom::{Model, Session};

@@ -2,12 +2,14 @@
 
 pub(crate) mod cantilever;
 pub(crate) mod folder;
+pub(crate) mod on_one_line;
 pub(crate) mod paths;
 pub(crate) mod rail;
 pub(crate) mod refused;
 pub(crate) mod runs;
 pub(crate) mod series;
 pub(crate) mod sessions;
+pub(crate) mod starts;
 pub(crate) mod truss;
 
 /// Path of an example.

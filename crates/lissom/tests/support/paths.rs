@@ -3,10 +3,10 @@
 use lissom::analyses::path::{PathReport, PathSession, PathSessionError};
 use lissom::{Model, Record};
 
-use super::runs;
+use super::starts;
 
 pub(crate) fn start(text: &str, overrides: &[(&str, &str)]) -> Result<PathSession, String> {
-    let model = Model::from_text("model.toml", text).with_overrides(&runs::overrides(overrides));
+    let model = Model::from_text("model.toml", text).with_overrides(&starts::overrides(overrides));
     PathSession::new(&model).map_err(|error| match error {
         PathSessionError::Model(report) => report.render(false),
         other => other.to_string(),

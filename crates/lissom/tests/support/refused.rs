@@ -10,8 +10,3 @@ pub(crate) fn refused(text: &str) -> String {
         Err(error) => error.to_string(),
     }
 }
-
-/// The same on one line.
-pub(crate) fn refused_on_one_line(text: &str) -> String {
-    refused(text).split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ")
-}

@@ -2,16 +2,16 @@
 
 use lissom::Session;
 
-use super::runs;
+use super::starts;
 
 /// A session at its start.
 pub(crate) fn session(text: &str) -> Session {
-    runs::session(text, &[])
+    starts::session(text, &[])
 }
 
 /// A session at its end.
 pub(crate) fn finished(text: &str) -> Session {
     let mut session = session(text);
-    runs::record(&mut session);
+    starts::record(&mut session);
     session
 }
