@@ -234,6 +234,13 @@ mod tests {
             assert!(fits, "{}: {default} is not {}", key.name, key.holds.value_type().words);
         }
         assert!(found > 80, "only {found} keys have a default");
+        // Friction of a joint is that of the element.
+        let element =
+            registry.springs.iter().find(|kind| kind.name == "torsional_friction").expect("it exists");
+        for key in Shape::friction_keys().iter().filter(|key| key.default.is_some()) {
+            let own = element.parameters.iter().find(|own| own.name == key.name).expect("the same names");
+            assert_eq!(own.default, key.default, "{}", key.name);
+        }
     }
 
     #[test]
