@@ -47,8 +47,8 @@ export const readTable = (text, known = []) => {
     const described = known.find((column) => column.name === name) ?? {};
     const dot = name.lastIndexOf(".");
     const [output, component] = dot < 0 ? [name, ""] : [name.slice(0, dot), name.slice(dot + 1)];
-    const { quantity = "", unit = "" } = described;
-    return { name, output, component, quantity, unit, values: new Float64Array(rows) };
+    const { quantity = "", unit = "", plot = output } = described;
+    return { name, output, component, quantity, unit, plot, values: new Float64Array(rows) };
   });
   for (let row = 0; row < rows; row++) {
     const numbers = lines[row + 1].split(",");

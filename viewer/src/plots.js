@@ -1,4 +1,4 @@
-// A plot of every output under the picture, with one time cursor for all of them.
+// A plot of every output under the picture, or of several that are drawn together, with one time cursor for all of them.
 
 import uPlot from "uplot";
 
@@ -18,21 +18,33 @@ const css = (name) => getComputedStyle(document.documentElement).getPropertyValu
 /** Room for the labels of an axis. */
 const roomOf = (_, labels) => 20 + 7 * Math.max(...(labels ?? []).map((label) => label.length), 3);
 
-/** Columns of one output and one unit belong together. */
+/** Columns of one plot and one unit belong together. */
 const groups = (columns) => {
   const found = new Map();
   for (const column of columns) {
-    const key = `${column.output}\n${column.unit}`;
+    const key = keyOf([column]);
     if (!found.has(key)) found.set(key, []);
     found.get(key).push(column);
   }
   return [...found.values()];
 };
 
+/** Word of a choice before the name of a column. */
+const WATERFALL = "waterfall ";
+
 /** Interval in which values beside the curves change [ms]. */
 const LEGIBLE = 100;
 
-const keyOf = ([{ output, unit }]) => `${output}\n${unit}`;
+const keyOf = ([{ plot, unit }]) => `${plot}\n${unit}`;
+
+/** Quantities of columns, each once. */
+const quantitiesOf = (columns) => [...new Set(columns.map(({ quantity }) => quantity))].filter(Boolean).join(", ");
+
+/** What distinguishes a column from the others of its plot. */
+const labelOf = (column, columns) => {
+  if (!column.component || column.component === "value") return column.output;
+  return columns.some(({ output }) => output !== column.output) ? column.name : column.component;
+};
 
 export class Plots {
   /** `seek` receives the time that was clicked. */
@@ -42,12 +54,12 @@ export class Plots {
     this.time = 0;
     this.range = null;
     this.plots = [];
-    /** Plots that are not shown, the one that fills the space, and their order, by output and unit. */
+    /** Plots that are not shown, the one that fills the space, and their order, by plot and unit. */
     this.hidden = new Set();
     this.largest = null;
     this.order = [];
     this.chooser = document.getElementById("chooser");
-    /** What plots are drawn over where that is not time, by output and unit. */
+    /** What plots are drawn over where that is not time, by plot and unit. */
     this.over = new Map();
     /** Another result on top of this one. */
     this.other = null;
@@ -96,15 +108,15 @@ export class Plots {
   /** The list in which plots are chosen and moved up. */
   offer() {
     const rows = this.order.map((key, index) => {
-      const [output, unit] = key.split("\n");
+      const [name, unit] = key.split("\n");
       const box = element("input", { type: "checkbox", checked: !this.hidden.has(key) });
       box.addEventListener("change", () => this.hide(key, !box.checked));
-      const up = element("button", { type: "button", textContent: "↑", title: "move up", ariaLabel: `move ${output} up`, disabled: index === 0 });
+      const up = element("button", { type: "button", textContent: "↑", title: "move up", ariaLabel: `move ${name} up`, disabled: index === 0 });
       up.addEventListener("click", () => {
         this.order.splice(index - 1, 2, key, this.order[index - 1]);
         this.redraw();
       });
-      return element("li", {}, element("label", {}, box, ` ${output}${unit ? ` [${unit}]` : ""}`), up);
+      return element("li", {}, element("label", {}, box, ` ${name}${unit ? ` [${unit}]` : ""}`), up);
     });
     this.chooser.querySelector("ul").replaceChildren(...rows);
   }
@@ -138,15 +150,17 @@ export class Plots {
   plot(columns) {
     const card = document.createElement("section");
     card.className = "plot";
-    const [{ output, quantity, unit }] = columns;
+    const [{ plot: name, unit, component }] = columns;
+    const outputs = columns.map(({ output }) => output);
+    const quantity = quantitiesOf(columns);
     const heading = document.createElement("h3");
-    const [{ component }] = columns;
     const isOne = columns.length === 1 && component;
-    const measured = quantity && quantity !== output ? ` ${isOne ? component : quantity}` : "";
-    heading.append(element("b", { textContent: output, title: output }), element("span", { textContent: `${measured}${unit ? ` [${unit}]` : ""}` }));
+    const measured = quantity && quantity !== name ? ` ${isOne ? component : quantity}` : "";
+    // The unit has an element of its own, which is never shortened.
+    heading.append(element("b", { textContent: name, title: name }), element("span", { textContent: measured }), element("span", { className: "unit", textContent: unit ? `[${unit}]` : "" }));
     const key = keyOf(columns);
     const button = (textContent, title, action) => {
-      const made = element("button", { type: "button", textContent, title, ariaLabel: `${title}: ${output}` });
+      const made = element("button", { type: "button", textContent, title, ariaLabel: `${title}: ${name}` });
       made.addEventListener("click", action);
       return made;
     };
@@ -159,23 +173,23 @@ export class Plots {
     const others = this.others(columns);
     if (over === "frequency") {
       const drawn = this.spectrum(columns, others, card);
-      if (drawn) return { plot: drawn, card, output, isFree: true };
-    } else if (over === "waterfall") {
-      const [column] = columns;
+      if (drawn) return { plot: drawn, card, outputs, isFree: true };
+    } else if (over.startsWith(WATERFALL)) {
+      const column = columns.find(({ name }) => over === WATERFALL + name) ?? columns[0];
       const drawn = waterfall(this.history.times, column.values);
       const range = [this.history.times[0], this.history.times.at(-1)];
-      const axes = { x: `t [s], largest amplitude of ${column.name} ${drawn && spelled(drawn.most, 3)} ${column.unit}`, y: "f [Hz]" };
-      if (drawn) return { plot: new WaterfallPlot(card, drawn, range, colours(), axes), card, output, isFree: true };
+      const axes = { x: `t [s], largest amplitude of ${column.name} ${drawn && spelled(drawn.most, 3)} ${column.unit}`, y: "f [Hz]", bar: column.unit };
+      if (drawn) return { plot: new WaterfallPlot(card, drawn, range, colours(), axes), card, outputs, isFree: true };
     } else if (over === "orbit") {
       const drawn = orbit(columns, this.history.columns, this.history.times, card, colours());
-      if (drawn) return { plot: drawn, card, output, isFree: true };
+      if (drawn) return { plot: drawn, card, outputs, isFree: true };
     } else if (over !== "time") {
       const drawn = this.path(columns, over, card);
-      if (drawn) return { plot: drawn, card, output, isFree: true };
+      if (drawn) return { plot: drawn, card, outputs, isFree: true };
     }
     const axis = { stroke: css("--faint"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line"), width: 1 }, font: "11px system-ui" };
     const series = columns.map((column, k) => ({
-      label: column.component || column.output,
+      label: labelOf(column, columns),
       stroke: curves[k % curves.length],
       width: 1.6,
       points: { show: false },
@@ -207,7 +221,7 @@ export class Plots {
       },
     };
     const plot = new uPlot(options, table, card);
-    return { plot, card, output, isJoined: known.length > 0 };
+    return { plot, card, outputs, isJoined: known.length > 0 };
   }
 
   /** What a plot is drawn over. */
@@ -216,8 +230,10 @@ export class Plots {
     select.className = "over";
     select.setAttribute("aria-label", "drawn over");
     const names = this.history.columns.map((column) => column.name);
-    const isOrbit = isPlace(this.history.columns.filter((column) => keyOf([column]) === key));
-    const options = [["time", `over ${this.clock}`], ...(isOrbit ? [["orbit", "orbit"]] : []), ...(this.clock === "time" ? [["frequency", "spectrum"], ...(hasWaterfall(this.history.times.length) ? [["waterfall", "waterfall"]] : [])] : [])];
+    const own = this.history.columns.filter((column) => keyOf([column]) === key);
+    const isOrbit = isPlace(own);
+    const waterfalls = hasWaterfall(this.history.times.length) ? own.map((column) => [WATERFALL + column.name, own.length > 1 ? `waterfall of ${labelOf(column, own)}` : "waterfall"]) : [];
+    const options = [["time", `over ${this.clock}`], ...(isOrbit ? [["orbit", "orbit"]] : []), ...(this.clock === "time" ? [["frequency", "spectrum"], ...waterfalls] : [])];
     select.append(...[...options, ...names.map((name) => [`column ${name}`, `over ${name}`])].map(([value, text]) => new Option(text, value)));
     select.value = this.over.get(key) ?? "time";
     select.addEventListener("change", () => {
@@ -233,13 +249,13 @@ export class Plots {
     const found = spectrum(this.history.times, columns.map((column) => column.values));
     if (!found) return null;
     const axis = { stroke: css("--faint"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line"), width: 1 }, font: "11px system-ui" };
-    const series = columns.map((column, k) => ({ label: column.component || column.output, stroke: curves[k % curves.length], width: 1.4, points: { show: false }, value: (_, value) => (value == null ? "" : spelled(value)) }));
+    const series = columns.map((column, k) => ({ label: labelOf(column, columns), stroke: curves[k % curves.length], width: 1.4, points: { show: false }, value: (_, value) => (value == null ? "" : spelled(value)) }));
     const lists = [...found.amplitudes];
     const known = this.other ? others.filter(Boolean) : [];
     const other = known.length ? spectrum(this.other.times, known.map((column) => column.values)) : null;
     let table = [found.frequencies, ...lists];
     if (other) {
-      known.forEach((column, k) => series.push({ ...series[columns.findIndex((own) => own.name === column.name)], label: `${column.component || column.output}, ${this.other.name}`, dash: [6, 4], value: (_, value) => (value == null ? "" : spelled(value)), index: k }));
+      known.forEach((column, k) => series.push({ ...series[columns.findIndex((own) => own.name === column.name)], label: `${labelOf(column, columns)}, ${this.other.name}`, dash: [6, 4], value: (_, value) => (value == null ? "" : spelled(value)), index: k }));
       table = uPlot.join([table, [other.frequencies, ...other.amplitudes]]);
       series.forEach((each) => (each.spanGaps = true));
     }
@@ -355,8 +371,8 @@ export class Plots {
   mark(outputs = []) {
     this.marked = outputs;
     let first = null;
-    for (const { card, output } of this.plots) {
-      const isMarked = outputs.includes(output);
+    for (const { card, outputs: own } of this.plots) {
+      const isMarked = own.some((output) => outputs.includes(output));
       card.classList.toggle("marked", isMarked);
       if (isMarked) first ??= card;
     }

@@ -3,9 +3,11 @@
 import { roundTicks } from "./path.js";
 import { spectrum } from "./spectrum.js";
 import { shade } from "./theme.js";
-import { tickLabels } from "./words.js";
+import { spelled, tickLabels } from "./words.js";
 
-const ROOM = { left: 74, right: 12, top: 8, bottom: 42 };
+const ROOM = { left: 74, right: 74, top: 8, bottom: 42 };
+/** Width of the colour bar, and its distance from the picture. */
+const BAR = { width: 12, gap: 10 };
 /** Windows over the run, each of two of this many parts. */
 const PARTS = 24;
 /** Decades below the largest amplitude that have colours. */
@@ -58,11 +60,14 @@ export class WaterfallPlot {
     const x = (time) => ROOM.left + ((right - ROOM.left) * (time - this.x[0])) / (this.x[1] - this.x[0]);
     const y = (frequency) => bottom - ((bottom - ROOM.top) * frequency) / this.y[1];
     const light = [0, 0, 0];
+    const colour = (level) => {
+      shade(level, false, light);
+      return `rgb(${light.map((value) => Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055))).join(" ")})`;
+    };
     for (const { at, duration, frequencies, amplitudes } of found.windows) {
       const step = frequencies[0];
       for (let k = 0; k < frequencies.length; k++) {
-        shade(amplitudes[k] > 0 ? 1 + Math.log10(amplitudes[k] / found.most) / DECADES : 0, false, light);
-        pen.fillStyle = `rgb(${light.map((value) => Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055))).join(" ")})`;
+        pen.fillStyle = colour(amplitudes[k] > 0 ? 1 + Math.log10(amplitudes[k] / found.most) / DECADES : 0);
         // Whole pixels leave no gaps.
         const [left, end] = [at - duration / 4, at + duration / 4].map(x);
         const [top, base] = [0.5, -0.5].map((half) => Math.max(y(frequencies[k] + half * step), ROOM.top));
@@ -86,6 +91,25 @@ export class WaterfallPlot {
     pen.rotate(-Math.PI / 2);
     pen.fillText(this.axes.y, 0, 0);
     pen.restore();
+    this.drawBar(pen, [right + BAR.gap, ROOM.top, bottom], colour);
+  }
+
+  /** Colours of amplitudes by decades, from the largest downwards. */
+  drawBar(pen, [left, top, bottom], colour) {
+    for (let y = top; y < bottom; y++) {
+      pen.fillStyle = colour((bottom - y) / (bottom - top));
+      pen.fillRect(left, y, BAR.width, 1);
+    }
+    pen.strokeStyle = this.colours.line;
+    pen.strokeRect(left, top, BAR.width, bottom - top);
+    pen.fillStyle = this.colours.faint;
+    pen.textAlign = "left";
+    for (let decade = 0; decade <= DECADES; decade++) {
+      const label = spelled(this.found.most / 10 ** decade, 2);
+      const y = top + ((bottom - top) * decade) / DECADES;
+      pen.fillText(label, left + BAR.width + 4, Math.max(y + 4, 11));
+    }
+    pen.fillText(this.axes.bar ? `[${this.axes.bar}]` : "", left, bottom + 14);
   }
 
   destroy() {

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use lissom_mechanics::elements::Element;
 use lissom_mechanics::evaluation::batch::{AnyBatch, ElementId};
 use lissom_mechanics::evaluation::work::{power, power_gradient};
+use lissom_mechanics::evaluation::wrench::{WrenchAxes, wrench, wrench_gradient};
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId, USUAL_UNKNOWNS};
 use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 
@@ -17,6 +18,19 @@ pub enum Of {
     Spring,
     /// Power that the element supplies to the rest of the model [W].
     Power,
+    /// Force [N] and moment [N m] on the tip of an element between two frames.
+    Wrench(WrenchAxes),
+}
+
+impl Of {
+    /// Whether an element has this quantity.
+    pub(crate) fn is_of(self, element: &dyn Element) -> bool {
+        match self {
+            Self::Spring => element.capabilities().spring.is_some(),
+            Self::Power => true,
+            Self::Wrench(_) => element.capabilities().frames.is_some(),
+        }
+    }
 }
 
 /// A quantity of an element in a batch, which the signals of the same system may depend on: it receives the batch when the system
@@ -30,11 +44,12 @@ pub(crate) struct ElementQuantity {
 }
 
 impl ElementQuantity {
-    /// A quantity of an item of a batch; none if it has more unknowns than a gradient.
+    /// A quantity of an item of a batch; none if the item has no such quantity, or more unknowns than a gradient.
     pub(crate) fn new(of: Of, batch: &dyn AnyBatch, item: usize) -> Option<Self> {
-        let unknowns = batch.element(item)?.unknowns();
+        let element = batch.element(item)?;
+        let unknowns = element.unknowns();
         let is_small = unknowns.force_count() <= USUAL_UNKNOWNS;
-        (is_small && !batch.sees_multipliers()).then(|| Self {
+        (of.is_of(element) && is_small && !batch.sees_multipliers()).then(|| Self {
             of,
             nodes: unknowns.nodes.to_vec(),
             coordinates: unknowns.coordinates.to_vec(),
@@ -66,6 +81,7 @@ impl Measurement for ElementQuantity {
         match self.of {
             Of::Spring => 3,
             Of::Power => 1,
+            Of::Wrench(_) => 6,
         }
     }
 
@@ -79,6 +95,11 @@ impl Measurement for ElementQuantity {
                 }
             }
             Of::Power => values[0] = power(element, at),
+            Of::Wrench(axes) => {
+                if let Some(frames) = element.capabilities().frames {
+                    values = wrench(element, &frames, axes, at);
+                }
+            }
         }
         values
     }
@@ -87,13 +108,17 @@ impl Measurement for ElementQuantity {
         let gradient = self.element().and_then(|element| match self.of {
             Of::Spring => Some(element.capabilities().spring?.spring_gradients(at)[component]),
             Of::Power => power_gradient(element, at),
+            Of::Wrench(axes) => {
+                let frames = element.capabilities().frames?;
+                Some(wrench_gradient(element, &frames, axes, component, at))
+            }
         });
         gradient.unwrap_or_else(Gradient::zero)
     }
 }
 
 impl System {
-    /// A quantity of an element as a measurement; none for loads scaled by signals, and for elements with more unknowns than a
+    /// A quantity of an element as a measurement; none for elements without it, for loads scaled by signals, and for elements with more unknowns than a
     /// gradient.
     pub fn element_quantity(&self, element: ElementId, of: Of) -> Option<Arc<dyn Measurement>> {
         let batch = &self.batches[element.batch?];

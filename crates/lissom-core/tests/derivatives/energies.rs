@@ -6,6 +6,7 @@ use lissom_core::kinematics::{Kinematics, LOCKED, Quantity};
 use lissom_core::registry::{ParameterType, Value};
 use lissom_core::system::element_quantity::Of;
 use lissom_core::system::{ElementId, State, System};
+use lissom_mechanics::evaluation::wrench::WrenchAxes;
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
@@ -23,6 +24,9 @@ const WITHOUT_ENERGY: [&str; 2] = ["bearing", "journal_bearing"];
 
 /// Those whose forces are no single force over one elongation.
 const WITHOUT_MOTION: [&str; 4] = ["bearing", "bushing", "coordinate_dynamics", "journal_bearing"];
+
+/// Those that exert a force and a moment on one tip.
+const BETWEEN_FRAMES: [&str; 5] = ["bearing", "bushing", "journal_bearing", "point", "rolling_contact"];
 
 /// A spring of a kind alone between two bodies, and which element it is. Laws that may depend on the rate, and so have no energy, are
 /// given where `is_damped`.
@@ -145,7 +149,7 @@ fn springs_report_the_motion_that_their_forces_work_on() {
     }
 }
 
-/// Gradients of elongations, rates and forces of springs, and of powers of springs and loads.
+/// Gradients of elongations, rates and forces of springs, of their forces and moments on the tip, and of powers of springs and loads.
 #[test]
 fn gradients_of_what_elements_report_are_those_of_differences() {
     for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
@@ -153,18 +157,19 @@ fn gradients_of_what_elements_report_are_those_of_differences() {
         let (system, state, element) = with_spring(kind, true, &mut random);
         let here = Configuration::random(&system, &state, 0.3, &mut random);
         let Some(element) = element else { continue };
-        for of in [Of::Spring, Of::Power] {
-            let quantity = system.element_quantity(element, of).expect("few unknowns");
+        let wrenches = [WrenchAxes::Ground, WrenchAxes::Base, WrenchAxes::Tip].map(Of::Wrench);
+        for of in [Of::Spring, Of::Power].into_iter().chain(wrenches) {
+            let Some(quantity) = system.element_quantity(element, of) else {
+                let is_absent = match of {
+                    Of::Spring => system.spring_motion(element, &here.at).is_none(),
+                    Of::Power => false,
+                    Of::Wrench(_) => !BETWEEN_FRAMES.contains(&kind.name),
+                };
+                assert!(is_absent, "{}: {of:?}", kind.name);
+                continue;
+            };
             let values =
                 |here: &Configuration| quantity.values(&here.at)[..quantity.component_count()].to_vec();
-            if values(&here)[0].is_nan() {
-                assert!(
-                    of == Of::Spring && system.spring_motion(element, &here.at).is_none(),
-                    "{}",
-                    kind.name
-                );
-                continue;
-            }
             let layout = system.layout();
             let nodes = quantity.nodes().iter().flat_map(|&node| layout.rows_of_node(node).iter().copied());
             let coordinates = quantity.coordinates().iter().map(|&own| layout.row_of_coordinate(own) as u32);

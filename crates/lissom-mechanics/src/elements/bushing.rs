@@ -21,7 +21,7 @@ use lissom_motion::{
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents, Unknowns};
+use super::{Capabilities, Element, Energy, Tangents, Unknowns};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics};
 use crate::ports::Ports;
@@ -223,6 +223,10 @@ impl Element for Bushing {
         let wrench = map.tr_mul(&resultant);
         self.frames.add_stiffness(&of.motion, (&wrench, &by_place), (size, &mut out.stiffness));
         self.frames.add_damping(&of.motion, &by_rate, (size, &mut out.damping));
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { frames: Some(self.frames.frames), ..Capabilities::default() }
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {

@@ -168,6 +168,14 @@ impl LocalLoad {
         self.wrench(&values).map(|vector| to_inertial * vector)
     }
 
+    /// Passes force and moment in the axes of the load, per length along a beam [N/m, N] or on a node [N, N m], and the values of all
+    /// functions to `read`.
+    pub fn read_functions(&self, at: &Kinematics, read: impl FnOnce([Vector3; 2], &[f64])) {
+        let values = self.values(at);
+        let scale = self.scale.value(at.time);
+        read(self.wrench(&values).map(|vector| scale * vector), &values.functions);
+    }
+
     /// The point [m], inertial axes.
     pub fn position(&self, at: &Kinematics) -> Vector3 {
         self.global.transform_point(&self.local(at).position)
@@ -471,6 +479,11 @@ impl ForceLaws for LocalLoad {
             function.switches(at.time, arguments, sides, out);
             function.value(at.time, arguments, sides)
         });
+    }
+
+    fn switch_subjects(&self) -> Option<Vec<Subject>> {
+        let of = |own: &LocalFunction| vec![Subject::clone(&own.subject); own.function.switch_count()];
+        Some(self.functions.all.iter().flat_map(of).collect())
     }
 
     fn group(&self) -> Option<usize> {

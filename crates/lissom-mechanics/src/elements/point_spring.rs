@@ -4,7 +4,7 @@
 //! Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇, or another law of ℓ - ℓ₀ and ℓ̇
 //! ```
 
-use lissom_motion::{Matrix3, Vector3, skew};
+use lissom_motion::{Matrix3, Motion, Vector3, skew};
 use nalgebra::{RowVector6, SMatrix};
 
 use super::contribution::Contribution;
@@ -15,7 +15,7 @@ use super::law_of_distance::{self, LawOfDistance};
 use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns, add_block};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
-use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId, NodeMotion, Switch, split};
 use crate::law::VisitLaw;
 use crate::number::Written;
 use crate::ports::Ports;
@@ -268,7 +268,15 @@ impl Element for PointSpring {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { load: Some(self), spring: Some(self), laws: Some(self), ..Capabilities::default() }
+        let frame =
+            |i: usize| CarriedFrame { node: self.nodes[i], offset: Motion::translation(self.points[i]) };
+        Capabilities {
+            load: Some(self),
+            spring: Some(self),
+            frames: Some([frame(0), frame(1)]),
+            laws: Some(self),
+            ..Capabilities::default()
+        }
     }
 }
 

@@ -496,7 +496,8 @@ impl Element for RollingContact {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), laws: Some(self), ..Capabilities::default() }
+        let frames = Some(self.frames.frames);
+        Capabilities { spring: Some(self), frames, laws: Some(self), ..Capabilities::default() }
     }
 }
 

@@ -5,7 +5,7 @@ use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
 use crate::contact::hollow::Hollow;
-use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
+use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Subject, Switch};
 use crate::law::VisitLaw;
 use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
@@ -18,6 +18,8 @@ pub struct Capabilities<'e> {
     pub load: Option<&'e dyn Load>,
     /// An elongation with its force.
     pub spring: Option<&'e dyn Spring>,
+    /// Frames of base and tip between which it exerts a force and a moment.
+    pub frames: Option<[CarriedFrame; 2]>,
     /// Laws of its forces, with their kinks and jumps.
     pub laws: Option<&'e dyn ForceLaws>,
     /// Strain energy whose derivatives differ from the forces.
@@ -90,6 +92,11 @@ pub trait Spring: Element {
         None
     }
 
+    /// How much longer a rope is than the way along its points, and its length [m]. Default: it is no rope.
+    fn slack(&self, _at: &Kinematics) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Its two nodes and the vector between its ends, if its force would have a direction at zero length, where that reverses.
     /// Default: it has none.
     fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
@@ -111,6 +118,11 @@ pub trait ForceLaws: Element {
 
     /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>);
+
+    /// Subjects of its kinks and jumps in messages, in the order of [`switches`](Self::switches). Default: they have none of their own.
+    fn switch_subjects(&self) -> Option<Vec<Subject>> {
+        None
+    }
 
     /// Number of the group of elements with the same laws at different points: values that are small beside those of others of the
     /// group, such as the velocity at the hub of a rotor, are round-off. Default: none.

@@ -12,6 +12,7 @@ pub mod switch_states;
 pub mod tangent_assembler;
 pub mod threads;
 pub mod work;
+pub mod wrench;
 
 pub use linearization::{Linearization, Scratch};
 pub use tangent_assembler::{Blend, Sum, TangentAssembler};

@@ -11,7 +11,7 @@ use crate::kinematics::{Kinematics, USUAL_UNKNOWNS};
 use crate::signals::measurement::Gradient;
 
 thread_local! {
-    /// Derivatives of forces, for gradients of powers.
+    /// Derivatives of forces, for gradients of powers and wrenches.
     static TANGENTS: RefCell<Tangents> = RefCell::new(Tangents::new(USUAL_UNKNOWNS));
 }
 
@@ -79,6 +79,15 @@ pub fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
     })
 }
 
+/// Passes the derivatives of an element's forces to `read`.
+pub(super) fn with_tangents<E: Element + ?Sized>(element: &E, at: &Kinematics, read: impl FnOnce(&Tangents)) {
+    TANGENTS.with_borrow_mut(|tangents| {
+        tangents.clear(element.unknowns().force_count());
+        element.linearize(at, tangents);
+        read(tangents);
+    });
+}
+
 /// Gradient of the power of an element's forces with respect to its local unknowns; none if there are more than those of a
 /// gradient, or multipliers among them.
 ///
@@ -94,9 +103,7 @@ pub fn power_gradient<E: Element + ?Sized>(element: &E, at: &Kinematics) -> Opti
     let mut gradient = Gradient::zero();
     element.forces(at, &mut gradient.by_rate[..size]);
     gradient.by_rate.iter_mut().for_each(|force| *force = -*force);
-    TANGENTS.with_borrow_mut(|tangents| {
-        tangents.clear(size);
-        element.linearize(at, tangents);
+    with_tangents(element, at, |tangents| {
         for (row, rate) in unknowns.rates(at).enumerate() {
             for (own, matrix) in [
                 (&mut gradient.by_place, &tangents.stiffness),

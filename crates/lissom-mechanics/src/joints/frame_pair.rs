@@ -16,7 +16,7 @@ use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FramePair {
     pub(crate) nodes: [NodeId; 2],
-    frames: [CarriedFrame; 2],
+    pub(crate) frames: [CarriedFrame; 2],
 }
 
 /// Relative motion of the two frames.

@@ -123,6 +123,8 @@ pub struct LocalLoadEntry {
     pub wrench: [Option<usize>; 6],
     /// The states, and the expressions of their derivatives.
     pub states: Vec<(LocalState, usize)>,
+    /// The named variables that other expressions use, and their expressions.
+    pub variables: Vec<(String, usize)>,
 }
 
 /// Keys of a load.
@@ -199,7 +201,8 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             let message = format!("{} has more than {MAX_FUNCTIONS} expressions", reader.what);
             return context.fail(reader.name, message, "combine some of its `variables`");
         }
-        let Laws { functions, states, .. } = laws;
+        let Laws { functions, states, known, .. } = laws;
+        let variables = known.into_iter().filter_map(|(name, index)| Some((name.to_owned(), index?)));
         let axes = reader.choice("axes")?.value;
         Some(LocalLoadEntry {
             name: Located::new(name.to_owned(), reader.name),
@@ -212,6 +215,7 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             flow,
             wrench: [force[0], force[1], force[2], moment[0], moment[1], moment[2]],
             states: states.into_iter().map(|(state, _)| state).zip(rates).collect(),
+            variables: variables.collect(),
         })
     })
 }

@@ -43,9 +43,13 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         };
         let (seen_in, relative_to) = (frame("in", Feature::Axes)?, frame("relative_to", Feature::Observer)?);
         let axis = if kind.has(Feature::AngleAxis) { Some(reader.vector("axis")?.value) } else { None };
+        let station = if kind.has(Feature::Station) { reader.number("station") } else { None };
+        let text = |key: &str| reader.text(key).map(|text| text.value.to_owned());
+        let unit = if kind.has(Feature::Unit) { text("unit") } else { None };
+        let plot = text("plot");
         let fatigue = if kind.has(Feature::Fatigue) { fatigue(reader) } else { None };
         let name = Located::new(name.to_owned(), reader.name);
-        Some(Output { name, kind, source, axes, seen_in, relative_to, axis, fatigue })
+        Some(Output { name, kind, source, axes, seen_in, relative_to, axis, station, unit, plot, fatigue })
     })
 }
 

@@ -235,6 +235,8 @@ fn outputs() -> Vec<Variant> {
         let mut keys = vec![required("kind", Shape::Choice(Cow::Owned(words.clone())), "", "its kind")];
         keys.extend(output_subject(kind.subject()));
         keys.extend(kind.features().iter().flat_map(|&feature| output_option(feature)));
+        let words = "plot in which it is drawn together with other outputs of the same word; default its own";
+        keys.push(optional("plot", Shape::Text, "", words));
         Variant { word: kind.name(), summary: kind.summary(), keys }
     };
     OutputKind::all().map(variant).collect()
@@ -280,6 +282,16 @@ fn output_option(feature: Feature) -> Vec<Key> {
             Shape::Direction,
             "",
             "axis at the start, global axes; it is fixed in `relative_to`",
+        )],
+        Feature::Station => {
+            let words = "fraction of the length of the beam along which the load acts, at one of its nodes; default the whole load";
+            vec![optional("station", Shape::Between(0.0, 1.0), "", words)]
+        }
+        Feature::Unit => vec![optional(
+            "unit",
+            Shape::Text,
+            "",
+            "unit of its values, such as \"kN\", for plots and tables; default none",
         )],
         Feature::Fatigue => vec![
             optional(

@@ -16,6 +16,7 @@ use super::over_argument::OverArgument;
 use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
+use crate::outputs::local_load::LocalLoadPoints;
 use crate::reading::node_reference::NodeReference;
 use crate::text::report::{Located, Problem};
 
@@ -25,7 +26,7 @@ pub(super) fn add(
     entry: &LocalLoadEntry,
     names: &Names,
     builder: &mut Builder,
-) -> Result<Vec<LocalLoad>, Problem> {
+) -> Result<LocalLoadPoints, Problem> {
     let laws: Vec<Arc<dyn SignalFunction>> = entry.functions.iter().map(law).collect();
     let held = outside(document, entry, names)?;
     let scale = |weight: f64| {
@@ -74,9 +75,9 @@ pub(super) fn add(
             scale(weight),
         );
         builder.add(contribution.with(load.clone()));
-        loads.push(load);
+        loads.push((station, load));
     }
-    Ok(loads)
+    Ok(LocalLoadPoints { points: loads, beam: entry.beam.clone(), variables: entry.variables.clone() })
 }
 
 fn law(expression: &LocalExpression) -> Arc<dyn SignalFunction> {

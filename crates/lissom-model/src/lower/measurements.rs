@@ -173,9 +173,11 @@ pub(super) fn bind(
             continue;
         }
         let spring = names.springs.get(&name.value);
+        let of = of(output);
         let element = match of {
             Of::Spring => spring.map(|&(element, elongation)| (element, components_of(elongation))),
             Of::Power => names.powers.get(&name.value).map(|&own| (own, output.kind.components())),
+            Of::Wrench(_) => spring.map(|&(element, _)| (element, output.kind.components())),
         };
         // An element that could not be added, and a spring without elongation, have their own problems.
         let Some((element, components)) = element else { continue };
@@ -188,7 +190,7 @@ pub(super) fn bind(
             problems.push(problem(message).maybe_help(suggest::help(&component, words())));
             continue;
         };
-        if !builder.measure_element(measurement, element, (*of, index)) {
+        if !builder.measure_element(measurement, element, (of, index)) {
             let message =
                 format!("`{owner}` has no gradient: its element has none, or has too many unknowns");
             problems.push(problem(message).help("add `sample` to the signal"));

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use lissom_mechanics::elements::beam::line::BeamLine;
-use lissom_mechanics::elements::local_load::LocalLoad;
 use lissom_mechanics::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
@@ -11,6 +10,7 @@ use lissom_system::ElementId;
 
 use crate::document::Component;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
+use crate::outputs::local_load::LocalLoadPoints;
 use crate::outputs::{Deformed, Resolver};
 use crate::reading::node_reference::{NodeReference, interface_name};
 use crate::text::report::{Located, Problem, Span};
@@ -60,8 +60,8 @@ pub struct Names {
     pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
     /// Points of each rigid contact.
     pub(crate) rigid_contacts: BTreeMap<String, Vec<RigidPoint>>,
-    /// Points of each local load.
-    pub(crate) local_loads: BTreeMap<String, Vec<LocalLoad>>,
+    /// Elements of each local load.
+    pub(crate) local_loads: BTreeMap<String, LocalLoadPoints>,
     /// Loads on coordinates of joints; those of size zero have no element.
     pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.

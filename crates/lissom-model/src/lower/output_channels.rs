@@ -60,8 +60,10 @@ impl Made<'_> {
         };
         let quantity_of = |coordinate| self.system.layout().coordinate_quantity(coordinate);
         let (components, units) = components(output.kind, &*quantity, &quantity_of);
+        let own_unit = |unit: &'static str| output.unit.clone().unwrap_or_else(|| unit.to_owned());
+        let units = units.into_iter().map(own_unit).collect();
         let (name, kind, fatigue) = (output.name.value.clone(), output.kind, output.fatigue);
-        Ok(Channel { name, kind, components, units, fatigue, quantity })
+        Ok(Channel { name, kind, components, units, plot: output.plot.clone(), fatigue, quantity })
     }
 
     fn quantity(&self, output: &Output) -> Found {
@@ -148,10 +150,10 @@ impl Made<'_> {
         path: &mut Vec<String>,
     ) -> Result<Option<(Channel, String)>, Problem> {
         if let Some(&argument) = self.names.signals.get(name) {
-            let (components, units) = (vec!["value".to_owned()], vec![""]);
+            let (components, units) = (vec!["value".to_owned()], vec![String::new()]);
             let (kind, quantity) = (OutputKind::Signal, Arc::new(SignalValue(argument)));
             let name = name.to_owned();
-            let channel = Channel { name, kind, components, units, fatigue: None, quantity };
+            let channel = Channel { name, kind, components, units, plot: None, fatigue: None, quantity };
             return Ok(Some((channel, "value".to_owned())));
         }
         let Some((owner, component)) = name.rsplit_once('.') else { return Ok(None) };
@@ -172,6 +174,9 @@ impl Made<'_> {
             seen_in: None,
             relative_to: None,
             axis: None,
+            station: None,
+            unit: None,
+            plot: None,
             fatigue: None,
         };
         Ok(Some((self.channel(&output, path)?, component.to_owned())))

@@ -63,7 +63,7 @@ pub struct Plots {
     pub left_out: Vec<String>,
 }
 
-/// One figure for each name of `of`, which is an output or a column; of all outputs that the results share if it is empty.
+/// One figure for each name of `of`, which is a plot, an output or a column; of all plots that the results share if it is empty.
 ///
 /// # Errors
 /// If a column is missing, units differ, or nothing is left.
@@ -115,7 +115,12 @@ pub fn plots(
                         found.lines
                     }
                 };
-                push(&mut panels, column, source.name, points)?;
+                let label = if column.name() == *name {
+                    column.output.clone()
+                } else {
+                    column.label(&source.record.columns)
+                };
+                push(&mut panels, (column, label), source.name, points)?;
             }
         }
         let (axis, suffix, words) = match over {
@@ -145,15 +150,14 @@ pub fn plots(
 /// Puts a curve to those of its unit.
 fn push(
     panels: &mut Vec<Panel>,
-    column: &Column,
+    (column, label): (&Column, String),
     source: &str,
     points: Vec<(f64, f64)>,
 ) -> Result<(), CurveError> {
     let label = match (column.component.as_str(), source) {
-        ("", "") => column.output.clone(),
+        (_, "") => label,
         ("", source) => source.to_owned(),
-        (component, "") => component.to_owned(),
-        (component, source) => format!("{component}, {source}"),
+        (_, source) => format!("{label}, {source}"),
     };
     let name = column.name();
     // The same column of other results, whose unit may not be known.
@@ -167,6 +171,7 @@ fn push(
     match panels.iter_mut().find(|panel| panel.unit == column.unit) {
         Some(panel) => {
             panel.names.push(name);
+            panel.add_quantity(&quantity_of(column));
             panel.curves.push((label, points));
         }
         None => panels.push(Panel {
@@ -191,10 +196,14 @@ fn unit_of(name: &str, first: &str, second: &str) -> Result<String, CurveError> 
     }
 }
 
-/// Columns of an output, or the one of that name, which may be one of its other names.
+/// Columns of a plot or an output, or the one of that name, which may be one of its other names.
 fn columns(source: &Source<'_>, name: &str) -> Result<Vec<usize>, CurveError> {
     let all = &source.record.columns;
-    let found: Vec<usize> = (0..all.len()).filter(|&index| all[index].output == name).collect();
+    let with = |of: fn(&Column) -> &str| -> Vec<usize> {
+        (0..all.len()).filter(|&index| of(&all[index]) == name).collect()
+    };
+    let of_plot = with(|column| &column.plot);
+    let found = if of_plot.is_empty() { with(|column| &column.output) } else { of_plot };
     if found.is_empty() { Ok(vec![one(source, name)?]) } else { Ok(found) }
 }
 
@@ -208,7 +217,7 @@ fn unknown(source: &Source<'_>, name: &str) -> CurveError {
     let count = known.len();
     known.truncate(12);
     let more = if count > known.len() { format!(" and {} more", count - known.len()) } else { String::new() };
-    let source_name = if source.name.is_empty() { "the table" } else { source.name };
+    let source_name = if source.name.is_empty() { "history.csv" } else { source.name };
     CurveError::Unknown {
         name: name.to_owned(),
         source_name: source_name.to_owned(),
@@ -216,17 +225,16 @@ fn unknown(source: &Source<'_>, name: &str) -> CurveError {
     }
 }
 
-/// Outputs that all results have, in the order of the first.
+/// Plots that all results have, in the order of the first.
 fn shared(sources: &[Source<'_>], left_out: &mut Vec<String>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for column in sources.iter().flat_map(|source| &source.record.columns) {
-        if !names.contains(&column.output) {
-            names.push(column.output.clone());
+        if !names.contains(&column.plot) {
+            names.push(column.plot.clone());
         }
     }
-    let has = |source: &Source<'_>, name: &String| {
-        source.record.columns.iter().any(|column| column.output == *name)
-    };
+    let has =
+        |source: &Source<'_>, name: &String| source.record.columns.iter().any(|column| column.plot == *name);
     names.retain(|name| match sources.iter().find(|source| !has(source, name)) {
         None => true,
         Some(source) => {

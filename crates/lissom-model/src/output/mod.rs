@@ -35,8 +35,10 @@ use crate::sweep::Fatigue;
 /// Content of a column of results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Name of the output it belongs to, such as `midspan`; columns of one output are drawn together.
+    /// Name of the output it belongs to, such as `midspan`.
     pub output: String,
+    /// Name of the plot in which it is drawn: that of the output, unless several outputs are drawn together.
+    pub plot: String,
     /// Component, such as `x`; empty for the only one.
     pub component: String,
     /// Quantity in words, such as `displacement`.
@@ -51,7 +53,23 @@ impl Column {
     /// A column.
     pub fn new(output: &str, component: &str, quantity: &str, unit: &str) -> Self {
         let [output, component, quantity, unit] = [output, component, quantity, unit].map(str::to_owned);
-        Self { output, component, quantity, unit, fatigue: None }
+        Self { plot: output.clone(), output, component, quantity, unit, fatigue: None }
+    }
+
+    /// The same in the plot of this name, if one is given.
+    #[must_use]
+    pub fn in_plot(self, plot: Option<String>) -> Self {
+        Self { plot: plot.unwrap_or_else(|| self.output.clone()), ..self }
+    }
+
+    /// Its label in a legend among `others`: the component, and the output where other outputs are drawn in the same plot.
+    pub fn label(&self, others: &[Self]) -> String {
+        let is_shared = others.iter().any(|other| other.plot == self.plot && other.output != self.output);
+        match self.component.as_str() {
+            "" | "value" => self.output.clone(),
+            _ if is_shared => self.name(),
+            component => component.to_owned(),
+        }
     }
 
     /// The same, with its cycles counted.

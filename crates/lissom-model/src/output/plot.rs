@@ -1,4 +1,4 @@
-//! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by `lissom-drawing`.
+//! Plots of results: one figure per output, or for several that are drawn together, with a panel for each unit. The drawing itself is done by `lissom-drawing`.
 
 use lissom_drawing::{Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, Panel as ChartPanel, palette};
 use lissom_mechanics::diagnostics::Diagnose;
@@ -104,7 +104,7 @@ impl Axis {
 /// Curves with a common unit.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Panel {
-    /// Quantity in words.
+    /// Quantities in words.
     pub(super) quantity: String,
     /// Unit, empty for none.
     pub(super) unit: String,
@@ -157,24 +157,27 @@ pub fn figures_of_curves(record: &CurveRecord, title: &str) -> Vec<Figure> {
 fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, title: &str) -> Vec<Figure> {
     let mut figures: Vec<(&str, Figure)> = Vec::new();
     for (which, column) in columns.iter().enumerate() {
-        let output = column.output.as_str();
-        let known = figures.iter().position(|(known, _)| *known == output);
+        let plot = column.plot.as_str();
+        let known = figures.iter().position(|(known, _)| *known == plot);
         let index = known.unwrap_or_else(|| {
-            let name = output.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
+            let name = plot.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
             // Names that differ only in characters that file names cannot contain get a number.
             let alike = |name: &str| figures.iter().any(|(_, figure)| figure.name == name);
             let name = std::iter::once(name.clone())
                 .chain((2..figures.len() + 3).map(|number| format!("{name}_{number}")))
                 .find(|name| !alike(name))
                 .unwrap_or(name);
-            let title = if title.is_empty() { output.to_owned() } else { format!("{title}: {output}") };
-            figures.push((output, Figure { name, title, axis: Axis::time(), panels: Vec::new() }));
+            let title = if title.is_empty() { plot.to_owned() } else { format!("{title}: {plot}") };
+            figures.push((plot, Figure { name, title, axis: Axis::time(), panels: Vec::new() }));
             figures.len() - 1
         });
         let panels = &mut figures[index].1.panels;
-        let curve = (column.component.clone(), thinned(points(which)));
+        let curve = (column.label(columns), thinned(points(which)));
         match panels.iter_mut().find(|panel| panel.unit == column.unit) {
-            Some(panel) => panel.curves.push(curve),
+            Some(panel) => {
+                panel.add_quantity(&quantity_of(column));
+                panel.curves.push(curve);
+            }
             None => panels.push(Panel {
                 quantity: quantity_of(column),
                 unit: column.unit.clone(),
@@ -252,6 +255,13 @@ impl Figure {
 }
 
 impl Panel {
+    /// Adds a quantity to those on its axis.
+    pub(super) fn add_quantity(&mut self, quantity: &str) {
+        if !self.quantity.split(", ").any(|known| known == quantity) {
+            self.quantity = format!("{}, {quantity}", self.quantity);
+        }
+    }
+
     /// Curves and axes, if there is anything to draw.
     fn draw(&self, axis: &Axis) -> Option<ChartPanel> {
         let all = || self.curves.iter().flat_map(|(_, points)| points);
@@ -285,7 +295,9 @@ const PREFIXES: [(f64, &str); 8] =
 
 /// A factor that leaves numbers of few digits on the axis, and the unit times this factor, in brackets.
 fn prefixed(most: f64, unit: &str) -> (f64, String) {
-    let takes_prefix = ["m", "N", "J", "W", "Pa", "rad"].iter().any(|known| unit.starts_with(known));
+    // Units that a model gives may have a prefix already.
+    let first = unit.split([' ', '/']).next().unwrap_or_default();
+    let takes_prefix = ["m", "N", "J", "W", "Pa", "rad"].contains(&first);
     let plain = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
     if !takes_prefix || (0.1..1e4).contains(&most) {
         return (1.0, plain);
@@ -393,6 +405,30 @@ mod tests {
         assert!(figures(&one, "").iter().all(|figure| figure.draw().unwrap().png().is_ok()));
         let nothing = record(10, |_| vec![f64::NAN; 3], &displacement());
         assert!(figures(&nothing, "")[0].draw().is_err());
+    }
+
+    /// Two outputs in one plot, one of them an expression: one figure, whose legend has their names.
+    #[test]
+    fn outputs_of_one_plot_are_drawn_together() {
+        let columns = [
+            Column::new("left", "f3", "spring force", "N").in_plot(Some("forces".to_owned())),
+            Column::new("sum", "value", "sum", "N").in_plot(Some("forces".to_owned())),
+            Column::new("left", "m1", "spring force", "N m").in_plot(Some("forces".to_owned())),
+            Column::new("alone", "value", "alone", "kN"),
+            Column::new("tip", "u1", "displacement", "m"),
+        ];
+        let of = figures(&record(5, |t| vec![t; 5], &columns), "press");
+        let titles: Vec<&str> = of.iter().map(|own| own.title.as_str()).collect();
+        assert_eq!(titles, ["press: forces", "press: alone", "press: tip"]);
+        let panel = |figure: usize, index: usize| {
+            let own: &Panel = &of[figure].panels[index];
+            let names: Vec<&str> = own.curves.iter().map(|(name, _)| name.as_str()).collect();
+            format!("{} [{}]: {}", own.quantity, own.unit, names.join(" "))
+        };
+        assert_eq!(panel(0, 0), "spring force, sum [N]: left.f3 sum");
+        assert_eq!(panel(0, 1), "spring force [N m]: left.m1");
+        assert_eq!(panel(1, 0), "alone [kN]: alone");
+        assert_eq!(panel(2, 0), "displacement [m]: u1");
     }
 
     #[test]
@@ -504,6 +540,8 @@ mod tests {
             (1e-9, "m", (1e-9, " [nm]")),
             (1e-12, "m", (1e-12, " [pm]")),
             (1e5, "1/m", (1.0, " [1/m]")),
+            (1e5, "kN", (1.0, " [kN]")),
+            (1e-3, "mm", (1.0, " [mm]")),
             (1e20, "m", (1.0, " [m]")),
         ] {
             assert_eq!(prefixed(most, unit), (wanted.0, wanted.1.to_owned()), "{most} {unit}");

@@ -23,7 +23,9 @@ pub struct Channel {
     /// Components, as `u1`.
     pub components: Vec<String>,
     /// Unit of all components, or of each where they differ.
-    pub units: Vec<&'static str>,
+    pub units: Vec<String>,
+    /// The plot in which it is drawn, if it is not its own.
+    pub plot: Option<String>,
     /// How its cycles are counted, if they are.
     pub fatigue: Option<Fatigue>,
     pub(crate) quantity: Arc<dyn OutputQuantity>,

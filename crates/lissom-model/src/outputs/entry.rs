@@ -82,6 +82,12 @@ pub struct Output {
     pub relative_to: Option<Located<NodeReference>>,
     /// The axis of an angle, at the start, global axes.
     pub axis: Option<Vector3>,
+    /// The fraction of the length of a beam at which it is recorded.
+    pub station: Option<Located<f64>>,
+    /// Its unit, if it is given.
+    pub unit: Option<String>,
+    /// The plot in which it is drawn; its own if there is none.
+    pub plot: Option<String>,
     /// How the cycles of its components are counted, if they are.
     pub fatigue: Option<Fatigue>,
 }

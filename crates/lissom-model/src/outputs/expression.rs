@@ -14,7 +14,7 @@ pub(crate) const EXPRESSION: Declaration = Declaration {
     word: "expression",
     summary: "Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.",
     subject: Subject::Expression,
-    features: &[Feature::Fatigue],
+    features: &[Feature::Unit, Feature::Fatigue],
     components: &[("value", "")],
     build: Build::Expression,
 };

@@ -30,7 +30,7 @@ pub(crate) const POSITION: Declaration = Declaration {
 /// Registry entry.
 pub(crate) const DISPLACEMENT: Declaration = Declaration {
     word: "displacement",
-    summary: "Displacement since the start.",
+    summary: "Displacement from the position in the model file.",
     subject: Subject::Node,
     features: &[Feature::Observer, Feature::Axes, Feature::Point],
     components: &[("u1", "m"), ("u2", "m"), ("u3", "m")],
@@ -50,7 +50,7 @@ pub(crate) const QUATERNION: Declaration = Declaration {
     word: "quaternion",
     summary: "Orientation of a node as a unit quaternion with non-negative q0.",
     subject: Subject::Node,
-    features: &[],
+    features: &[Feature::Observer],
     components: &[("q0", ""), ("q1", ""), ("q2", ""), ("q3", "")],
     build: Build::Motion(|output, subjects| quantity(Of::Quaternion, output, subjects)),
 };
@@ -59,7 +59,7 @@ pub(crate) const CARDAN_ANGLES: Declaration = Declaration {
     word: "cardan_angles",
     summary: "Orientation of a node as Cardan angles: rotations about x, the rotated y and the twice rotated z.",
     subject: Subject::Node,
-    features: &[],
+    features: &[Feature::Observer],
     components: &[("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")],
     build: Build::Motion(|output, subjects| quantity(Of::CardanAngles, output, subjects)),
 };

@@ -34,6 +34,10 @@ pub(crate) enum Feature {
     JointAxes,
     /// An angle about a given axis.
     AngleAxis,
+    /// It may be of one station along a beam.
+    Station,
+    /// Its unit may be given.
+    Unit,
     /// Its cycles may be counted as fatigue.
     Fatigue,
     /// An observer other than the ground may see it.
@@ -136,6 +140,8 @@ kinds! {
     LocalLoad = outputs::local_load::LOCAL_LOAD,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring = outputs::spring::SPRING,
+    /// Force and moment of a spring on its tip [N, N m].
+    SpringForce = outputs::spring_force::SPRING_FORCE,
     /// Power that a spring, load, drive or friction puts into the model [W].
     Power = outputs::power::POWER,
     /// Work that a spring, load, drive or friction has put into the model since the start [J].

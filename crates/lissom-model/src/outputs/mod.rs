@@ -30,6 +30,7 @@ mod rigid_contact_force;
 pub(crate) mod section;
 pub(crate) mod signal;
 pub(crate) mod spring;
+mod spring_force;
 mod touched;
 pub(crate) mod work;
 
@@ -37,7 +38,6 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_mechanics::elements::beam::line::BeamLine;
-use lissom_mechanics::elements::local_load::LocalLoad;
 use lissom_mechanics::elements::superelement::Deformation;
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_mechanics::signals::Argument;
@@ -52,6 +52,7 @@ use nalgebra::DMatrix;
 use crate::outputs::channels::Channel;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
 use crate::outputs::entry::Output;
+use crate::outputs::local_load::LocalLoadPoints;
 use crate::text::report::Problem;
 
 use touched::Touched;
@@ -137,7 +138,7 @@ pub(crate) enum Build {
     /// From what is known before the system is built, so that signals can depend on it.
     Motion(fn(&Output, &Subjects<'_>) -> Found),
     /// From an element; signals depend on this quantity of it, which is known when the elements are added.
-    Element(element_quantity::Of, fn(&Output, &System, &Subjects<'_>) -> Found),
+    Element(fn(&Output) -> element_quantity::Of, fn(&Output, &System, &Subjects<'_>) -> Found),
     /// From the system; why signals can depend on it at samples alone.
     System(&'static str, fn(&Output, &System, &Subjects<'_>) -> Found),
     /// The simulation accumulates it.
@@ -173,8 +174,7 @@ pub(crate) struct Resolver<'a> {
     /// Points of each contact.
     pub(crate) contacts: &'a BTreeMap<String, Vec<ContactPoint>>,
     pub(crate) rigid_contacts: &'a BTreeMap<String, Vec<RigidPoint>>,
-    /// Points of each local load.
-    pub(crate) local_loads: &'a BTreeMap<String, Vec<LocalLoad>>,
+    pub(crate) local_loads: &'a BTreeMap<String, LocalLoadPoints>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
 }

@@ -24,7 +24,7 @@ pub(crate) const POWER: Declaration = Declaration {
     subject: Subject::Actor,
     features: &[Feature::Accelerations],
     components: &[("power", "W")],
-    build: Build::Element(Of::Power, quantity),
+    build: Build::Element(|_| Of::Power, quantity),
 };
 /// What puts power into a model.
 #[derive(Clone, Copy)]

@@ -19,7 +19,7 @@ pub(crate) const SIGNAL: Declaration = Declaration {
     word: "signal",
     summary: "Value of a signal, an input or a state.",
     subject: Subject::Signal,
-    features: &[Feature::Fatigue],
+    features: &[Feature::Unit, Feature::Fatigue],
     components: &[("value", "")],
     build: Build::Motion(quantity),
 };

@@ -23,7 +23,7 @@ pub(crate) const SPRING: Declaration = Declaration {
     subject: Subject::Spring,
     features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[("elongation", "m"), ("rate", "m/s"), ("force", "N")],
-    build: Build::Element(Of::Spring, quantity),
+    build: Build::Element(|_| Of::Spring, quantity),
 };
 /// Motion of a spring with its force.
 struct Spring {

@@ -71,11 +71,6 @@ impl Builder {
     ) -> bool {
         let Some(index) = element.batch else { return false };
         let batch = &*self.batches[index];
-        let has_spring =
-            || batch.element(element.item).is_some_and(|own| own.capabilities().spring.is_some());
-        if of == Of::Spring && !has_spring() {
-            return false;
-        }
         let Some(quantity) = ElementQuantity::new(of, batch, element.item).map(Arc::new) else {
             return false;
         };

@@ -268,6 +268,9 @@ impl ResultFolder {
             if let Some(known) = known.into_iter().find(|known| known["name"] == name.as_str()) {
                 let word = |fact: &str| known[fact].as_str().unwrap_or_default().to_owned();
                 (column.quantity, column.unit) = (word("quantity"), word("unit"));
+                if let Some(plot) = known["plot"].as_str() {
+                    plot.clone_into(&mut column.plot);
+                }
             }
         }
         let title = summary["title"].as_str().unwrap_or_default().to_owned();

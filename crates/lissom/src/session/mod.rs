@@ -26,6 +26,7 @@ use lissom_core::signals::event::Occurrence;
 use lissom_core::simulation::{InputError, Simulation};
 use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
+use lissom_model::document::OutputKind;
 use lissom_model::lower::Plan;
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::sweep::{Accumulator, TimeWindow, WindowError, WindowedHistory};
@@ -117,9 +118,14 @@ struct Tally {
 /// The columns of a lowered model's outputs.
 pub fn columns(channels: &[Channel]) -> Vec<Column> {
     let of = |channel: &Channel| {
-        let quantity = channel.kind.name().replace('_', " ");
-        let column = |(component, unit): (&String, &&'static str)| {
-            Column::new(&channel.name, component, &quantity, unit).with_fatigue(channel.fatigue)
+        // What an expression is follows from its name alone.
+        let quantity = match channel.kind {
+            OutputKind::Expression | OutputKind::Signal => channel.name.clone(),
+            kind => kind.name().replace('_', " "),
+        };
+        let column = |(component, unit): (&String, &String)| {
+            let column = Column::new(&channel.name, component, &quantity, unit);
+            column.with_fatigue(channel.fatigue).in_plot(channel.plot.clone())
         };
         channel.components.iter().zip(&channel.units).map(column).collect::<Vec<_>>()
     };

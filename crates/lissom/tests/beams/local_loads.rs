@@ -4,7 +4,7 @@ use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, SessionError};
 
 use crate::support::refused::refused;
-use crate::support::runs::{last, run_without_warnings as run};
+use crate::support::runs::{last, run_without_warnings as run, session};
 
 const FALL: &str = r#"
 lissom = 1
@@ -611,4 +611,71 @@ kind = "statics"
     // The section's axis 1 is from the start to the end.
     let [f1, f2] = ["f1", "f2"].map(|component| last(&record, "push", component));
     assert!(f1.abs() < 1e-3 && (f2 + 3.0).abs() < 1e-6, "{f1} {f2}");
+}
+
+/// A load that grows along a cantilever, with a name for its size.
+const WING: &str = r#"
+lissom = 1
+[sections.s]
+shape = "general"
+stiffness = [1e6, 4e5, 4e5, 100, 2000, 2000]
+mass = { per_length = 1, inertia = [2e-4, 1e-4, 1e-4] }
+[beams.wing]
+section = "s"
+from = [0, 0, 0]
+to = [2, 0, 0]
+elements = 4
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "wing.start"
+[local_loads.air]
+on = "wing"
+axes = "global"
+variables = { lift = "5*(1 + s)" }
+force = [0, 0, "lift"]
+moment = [0.25, 0, 0]
+[outputs.whole]
+kind = "local_load"
+of = "air"
+[outputs.middle]
+kind = "local_load"
+of = "air"
+station = 0.5
+[analysis]
+kind = "statics"
+"#;
+
+/// Per length at a station what the load says there, and in all what a trapezoidal rule over the nodes makes of it.
+#[test]
+fn a_load_is_recorded_at_a_station_and_as_a_whole() {
+    let record = run(WING, &[]);
+    let at = |output, component| last(&record, output, component);
+    for (component, exact) in [("f1", 0.0), ("f3", 7.5), ("m1", 0.25), ("lift", 7.5)] {
+        assert!((at("middle", component) - exact).abs() < 1e-12, "{component}");
+    }
+    assert!((at("whole", "f3") - 15.0).abs() < 1e-9, "{}", at("whole", "f3"));
+    let units: Vec<(String, String)> = session(WING, &[])
+        .columns()
+        .iter()
+        .filter(|column| column.output == "middle")
+        .map(|column| (column.component.clone(), column.unit.clone()))
+        .collect();
+    let unit =
+        |component: &str| units.iter().find(|(own, _)| own == component).map(|(_, unit)| unit.as_str());
+    assert_eq!([unit("f3"), unit("m1"), unit("lift")], [Some("N/m"), Some("N"), Some("")]);
+}
+
+#[test]
+fn stations_without_a_load_are_refused_with_the_nearest() {
+    for (station, load, words) in [
+        ("0.55", "on = \"wing\"", "does not act on `wing` at 0.55"),
+        ("0.55", "on = \"wing\"", "it acts at the nodes of the beam, the nearest at 0.5 and 0.75"),
+        ("0.5", "on = \"wing.end\"", "acts on a node, so it has no stations"),
+    ] {
+        let text = WING.replace("station = 0.5", &format!("station = {station}"));
+        let text = text.replace("on = \"wing\"", load).replace("5*(1 + s)", "5");
+        let message = refused(&text);
+        assert!(message.contains(words), "{message}");
+    }
 }

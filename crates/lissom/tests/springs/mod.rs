@@ -1,5 +1,6 @@
 //! Springs, stops, bushings and ropes.
 
 mod force_laws;
+mod forces_on_tips;
 mod ropes;
 mod stops_and_bushings;

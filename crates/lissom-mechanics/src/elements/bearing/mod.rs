@@ -190,7 +190,7 @@ impl Element for Bearing {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { load: Some(self), ..Capabilities::default() }
+        Capabilities { load: Some(self), frames: Some(self.frames.frames), ..Capabilities::default() }
     }
 }
 

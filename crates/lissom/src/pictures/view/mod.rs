@@ -187,7 +187,7 @@ impl Results {
     /// With the table of results.
     #[must_use]
     pub fn with_record(mut self, record: &Record) -> Self {
-        let column = |column: &Column| serde_json::json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
+        let column = |column: &Column| serde_json::json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "plot": column.plot });
         self.columns = record.columns.iter().map(column).collect();
         let numbers = record.times.len() * (record.columns.len() + 1);
         let stride = numbers.div_ceil(MAX_NUMBERS).max(1);
