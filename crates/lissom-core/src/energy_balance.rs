@@ -236,7 +236,7 @@ impl EnergyBalance {
         &self,
         before: &Self,
         time: f64,
-        node: impl FnOnce() -> String,
+        (node, remedy): (impl FnOnce() -> String, &'static str),
     ) -> Result<(), StepError> {
         let allowed = GROSS * self.turned_over + self.least_known();
         if self.surplus <= allowed || self.surplus <= before.surplus {
@@ -249,6 +249,7 @@ impl EnergyBalance {
             turned_over: self.turned_over,
             in_this_step: gain > 0.5 * self.surplus,
             node: node(),
+            remedy,
         })
     }
 

@@ -403,8 +403,9 @@ impl System {
     pub fn name_of_switch(&self, which: usize) -> Subject {
         let mut names = self.signals().names_of_switches();
         for element in self.elements_with(|own| own.laws) {
-            let subject = self.subject_of(element.unknowns());
-            names.extend(std::iter::repeat_n(subject, element.switch_count()));
+            let subject = || self.subject_of(element.unknowns());
+            let own = element.switch_subjects();
+            names.extend(own.unwrap_or_else(|| vec![subject(); element.switch_count()]));
         }
         names.get(which).cloned().unwrap_or_else(|| Subject::nameless("a force with a kink or a jump"))
     }

@@ -145,3 +145,17 @@ impl ScalingChoice {
         self.equilibrated && self.by == ScaleBy::Physical
     }
 }
+
+impl Settings {
+    /// What to change where steps do not resolve the motion, except what is the case already.
+    pub fn resolution_remedy(&self) -> &'static str {
+        match (self.control.is_some(), self.scheme.name.starts_with("radau-iia")) {
+            (true, true) => "use a smaller `relative_tolerance`",
+            (true, false) => "use a smaller `relative_tolerance`, or choose `scheme = \"radau-iia\"`",
+            (false, true) => "use a smaller step, or set `relative_tolerance` instead of `step`",
+            (false, false) => {
+                "use a smaller step, set `relative_tolerance` instead of `step`, or choose `scheme = \"radau-iia\"`"
+            }
+        }
+    }
+}

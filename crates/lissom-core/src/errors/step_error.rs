@@ -307,14 +307,15 @@ diagnostics! {
             in_this_step: bool,
             /// Name of the node whose velocity changes most in the step.
             node: String,
+            /// What to change.
+            remedy: &'static str,
         } => "energy-gain" {
             time: *time,
             subject: Subject::new("node", node),
             cause: ("step to t = {time} s: the energy exceeds the work of loads and drives by {surplus:.3e} J, where \
                     {turned_over:.3e} J are \
                     exchanged: the step does not resolve the motion, which is fastest at node `{node}`"),
-            remedy: "use a smaller step, set `relative_tolerance`, or choose `scheme = \"radau-iia\"`; `energy_check = false` continues \
-                such a run",
+            remedy: "{remedy}; `energy_check = false` continues such a run",
             meaning: "Energy grew beyond the work of loads and drives: the step is too long, or there is little numerical damping with masses \
                 that differ by orders of magnitude.",
             advice: "Use a smaller step, `relative_tolerance`, or `scheme = \"radau-iia\"`; `energy_check = false` switches the check off.",
@@ -420,7 +421,7 @@ pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'
     if !augmented {
         return "a coordinate without mass and stiffness requires the augmented term: set `augmented = true`";
     }
-    "it has no resistance in this position: add mass, stiffness or a joint, or start the search for an equilibrium from another position, \
+    "it has no resistance in this position: add mass, which a junction of springs without mass needs too, stiffness or a joint, or start the search for an equilibrium from another position, \
      where weight or a spring determines it"
 }
 

@@ -22,11 +22,13 @@ diagnostics! {
             surplus: f64,
             /// Energy exchanged until then [J].
             turned_over: f64,
+            /// What to change.
+            remedy: String,
         } => "energy-surplus" {
             time: *time,
             cause: ("from t = {time} s on the energy exceeds the work of loads and drives: a surplus of {surplus:.3e} J where \
                     {turned_over:.3e} J are exchanged; the step does not resolve the motion"),
-            remedy: "use a smaller step, or set `relative_tolerance`",
+            remedy: "{remedy}",
             meaning: "Energy grew beyond the work of loads and drives, by more than 5 % of the energy exchanged.",
             advice: "The step does not resolve the motion, or the scheme adds energy to a motion that it does not resolve: use a smaller step, \
                 `relative_tolerance`, or `scheme = \"radau-iia\"`.",
@@ -139,10 +141,10 @@ diagnostics! {
         } => "contact-too-short" {
             time: *time,
             subject: what,
-            cause: ("at t = {time} s {what} stops the colliding part within two steps: such a short contact is not resolved, and its \
-                    energy may be lost or increased"),
-            remedy: "use steps of at most a fiftieth of the contact, or set `relative_tolerance` instead of `step`, which ends steps at \
-                the start of contacts",
+            cause: ("at t = {time} s {what} changes at a contact, a stop or a kink, and ends the motion towards it within two steps: this is \
+                    not resolved, and energy may be lost or increased"),
+            remedy: "use steps of at most a fiftieth of the time for which it acts, or set `relative_tolerance` instead of `step`, which ends steps \
+                where it begins",
             meaning: "With fixed steps, a contact with a stop, a one-sided spring or a kink of an expression ends the motion within two steps, \
                 from a tenth or more of the highest approach speed.",
             advice: "The contact is too short for the steps, and its energy may be lost: use steps of a fiftieth of its duration, or \
@@ -375,6 +377,26 @@ diagnostics! {
             advice: "A flange or a second contact would carry load from there on, which one constraint cannot represent: reduce the \
                 speed, or specify profiles over the whole width.",
         }
+        /// Many steps end at kinks and jumps of laws.
+        LawsEndSteps {
+            /// When it was reported [s].
+            time: f64,
+            /// Number of steps that ended there.
+            ended: usize,
+            /// Number of all steps.
+            steps: usize,
+            /// The laws at which most of them ended, with their numbers.
+            laws: Subject,
+        } => "laws-end-steps" {
+            time: *time,
+            subject: laws,
+            cause: ("until t = {time} s {ended} of {steps} steps ended at kinks or jumps of laws: {laws}"),
+            remedy: "if the run is too slow, use smooth laws, such as `sqrt(x^2 + 0.01)` instead of `abs(x)`, or `interpolation = \"spline\"`",
+            meaning: "At least a quarter of the steps ended at kinks or jumps of the laws of signals and local loads, such as `max`, `abs` or the \
+                rows of a linear table. At each of them a step is repeated until it ends there.",
+            advice: "The result is accurate, but the run is slower than with smooth laws: replace `abs(x)` by `sqrt(x^2 + e^2)`, `max` by a \
+                smooth transition, and give tables `interpolation = \"spline\"`. `summary.json` lists the laws under `laws_that_end_steps`.",
+        }
         /// Two solids in contact overlap at the start.
         ContactOverlaps {
             /// The start [s].
@@ -391,6 +413,25 @@ diagnostics! {
             meaning: "Two shapes in contact overlap at the start by more than a load would press them into each other. Their contact \
                 force accelerates them.",
             advice: "Start the parts apart, or leave a solid out of contacts with `touches = false`.",
+        }
+        /// A rope is slack at the start.
+        RopeSlack {
+            /// The start [s].
+            time: f64,
+            /// Its parts.
+            parts: String,
+            /// How much longer it is than the way along its points [m].
+            slack: f64,
+            /// Its length [m].
+            length: f64,
+        } => "rope-slack" {
+            time: *time,
+            subject: Subject::nameless(format!("the rope on {parts}")),
+            cause: ("at the start the rope on {parts} is slack by {slack:.3} m: it is {length:.3} m long"),
+            remedy: "shorten its `length`, unless the part is meant to fall into it",
+            meaning: "A rope is longer at the start than the way along its points by more than 5 %. It carries nothing until its parts are so far \
+                apart.",
+            advice: "Without `length` a rope is as long as its way at the start, less its `preload`. Write a `length` only if it is slack or stretched.",
         }
         /// A joint starts beyond its stops.
         BeyondStop {

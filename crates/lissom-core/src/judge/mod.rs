@@ -41,6 +41,8 @@ pub(crate) struct Judge<'a> {
     pub(crate) is_motion: bool,
     /// Whether spurious energy fails the step.
     pub(crate) checks_energy: bool,
+    /// What to change where steps do not resolve the motion.
+    remedy: &'static str,
 }
 
 impl<'a> Judge<'a> {
@@ -51,7 +53,8 @@ impl<'a> Judge<'a> {
         redundancy: &'a Redundancy,
     ) -> Self {
         let (is_motion, checks_energy) = (settings.scheme.dynamic, settings.energy_check);
-        Self { system, representative, redundancy, is_motion, checks_energy }
+        let remedy = settings.resolution_remedy();
+        Self { system, representative, redundancy, is_motion, checks_energy, remedy }
     }
 }
 
@@ -87,7 +90,8 @@ impl Judge<'_> {
         let after =
             energy_balance.after(self.system, (&start.into(), &end.into()), work, (weighs, self.is_motion));
         if self.checks_energy && self.is_motion {
-            after.refuse_gain(energy_balance, end.kinematics.time, || self.most_restless(start, end))?;
+            let node = || self.most_restless(start, end);
+            after.refuse_gain(energy_balance, end.kinematics.time, (node, self.remedy))?;
         }
         Ok((after, violation))
     }

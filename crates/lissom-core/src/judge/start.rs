@@ -14,6 +14,9 @@ const NOTEWORTHY: f64 = 1e-3;
 /// If less than this fraction of the given kinetic energy remains, the given velocities are considered lost.
 const NOTHING: f64 = 1e-4;
 
+/// Drives are named in a conflict of velocities from this fraction of the largest violation on: those of a loop that has a
+/// transmission may be violated by much less than its joints.
+const DRIVES_IN_CONFLICT: f64 = 1e-3;
 /// Deformation rates below this are round-off of a model at rest [1/s].
 const RATE_AT_REST: f64 = 1e-9;
 
@@ -155,7 +158,11 @@ pub(crate) fn rates(
         return Ok(());
     }
     let mut violated: Vec<Subject> = Vec::new();
-    for k in (0..rates.len()).filter(|&k| relative(k) > 0.1 * worst) {
+    let is_drive = |k: &usize| system.drives().iter().any(|drive| drive.multiplier == *k);
+    // Drives first: they are what contradicts, the joints between them only carry it.
+    let drives = (0..rates.len()).filter(is_drive).filter(|&k| relative(k) > DRIVES_IN_CONFLICT * worst);
+    let others = (0..rates.len()).filter(|k| !is_drive(k)).filter(|&k| relative(k) > 0.1 * worst);
+    for k in drives.chain(others) {
         let (joint, equation) = layout.constraint_name(k);
         let name = Subject::new("joint", joint).called(format!("`{joint}` ({equation})"));
         if violated.len() < super::MAX_LISTED && !violated.contains(&name) {

@@ -25,7 +25,8 @@ impl Monitor for EnergySurplus {
                     _ => now,
                 };
                 let is_noteworthy = after.is_noteworthy();
-                is_noteworthy.then_some(Warning::EnergySurplus { time: since, surplus, turned_over })
+                let remedy = step.problem.settings.resolution_remedy().into();
+                is_noteworthy.then_some(Warning::EnergySurplus { time: since, surplus, turned_over, remedy })
             },
         );
     }

@@ -31,7 +31,7 @@ use std::any::Any;
 
 use monitor::Monitor;
 pub(crate) use monitor::{Accepted, Beginning};
-pub(crate) use penetration::{beyond_stop, overlap};
+pub(crate) use penetration::{beyond_stop, overlap, slack_rope};
 
 use crate::errors::StepError;
 use crate::errors::Warning;

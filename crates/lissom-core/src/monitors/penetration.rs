@@ -37,12 +37,26 @@ pub(crate) fn overlap(system: &System, at: &Kinematics) -> Option<Warning> {
     Some(Warning::ContactOverlaps { time: at.time, part, depth })
 }
 
+/// A rope that is longer than its way by this fraction at the start is reported.
+const SLACK: f64 = 0.05;
+
 /// The first joint that starts beyond its stops, as no weight or preload presses it into them.
 pub(crate) fn beyond_stop(system: &System, at: &Kinematics) -> Option<Warning> {
     let mut stops = system.elements_with(|own| own.spring).filter_map(|spring| spring.beyond_stop(at));
     let (coordinate, [depth, _]) = stops.find(|(_, [depth, range])| *depth > OVERLAP * range)?;
     let coordinate = system.layout().coordinate_names[coordinate.index()].clone();
     Some(Warning::BeyondStop { time: at.time, coordinate, depth })
+}
+
+/// The first rope that is much longer at the start than the way along its points.
+pub(crate) fn slack_rope(system: &System, at: &Kinematics) -> Option<Warning> {
+    system.elements_with(|own| own.spring).find_map(|rope| {
+        let [slack, length] = rope.slack(at)?;
+        let name = |node| format!("`{}`", system.layout().name_of_node(node));
+        let parts = rope.unknowns().nodes.iter().copied().filter(|&node| node != GROUND).map(name);
+        let parts = parts.collect::<Vec<_>>().join(" and ");
+        (slack > SLACK * length).then(|| Warning::RopeSlack { time: at.time, parts, slack, length })
+    })
 }
 
 /// A part with a contact that is deeper than a share of half of the size of its solids, with its depth and that half.

@@ -244,7 +244,10 @@ fn refuse_rates(system: &System) -> Result<(), InitialError> {
     let layout = system.layout();
     let at_rest: BTreeSet<_> = system.elements_with(|own| own.load).flat_map(Load::states_at_rest).collect();
     let states = layout.states().filter(|(_, state, _)| !at_rest.contains(state));
-    let mut rows = states.map(|(row, ..)| row).chain(layout.velocity_rows());
+    let count = layout.coordinate_count();
+    let is_latch = |row: &usize| system.latches().iter().any(|latch| count + latch.multiplier == *row);
+    // A latch keeps its coordinate in load steps too.
+    let mut rows = states.map(|(row, ..)| row).chain(layout.velocity_rows().filter(|row| !is_latch(row)));
     let of_row = rows.next().map(|row| layout.subject_of(row));
     if let Some(signal) = system.signals().delayed() {
         return Err(InitialError::DelayInStatics { signal });
@@ -288,6 +291,7 @@ fn begin_motion(
     warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
     warnings.extend(monitors::overlap(system, &state.kinematics));
     warnings.extend(monitors::beyond_stop(system, &state.kinematics));
+    warnings.extend(monitors::slack_rope(system, &state.kinematics));
     settle(system, state, &mut initial, settings)?;
     let held_values = may_jump(system, state).then_some(initial);
     Ok((velocity_correction, held_values))

@@ -58,11 +58,30 @@ pub(crate) struct EventState {
     pub(crate) stopped_by: Option<usize>,
     /// Whether a force has switched at the state: the motion may then be much faster than before.
     pub(crate) has_switched: bool,
+    /// Number of steps that ended at each kink or jump of a force, in the order of the switches.
+    ended: Vec<usize>,
+    /// Number of these steps from which they are examined for laws that end many.
+    examined_from: usize,
     /// Start of the time window in which crossings are counted [s], and their number.
     recent: (f64, usize),
 }
 
 impl EventState {
+    /// Whether twice as many steps, and at least `first`, have ended at kinks and jumps as at the last time this was so.
+    pub(crate) fn is_examination_due(&mut self, first: usize) -> bool {
+        let ended: usize = self.ended.iter().sum();
+        let is_due = ended >= self.examined_from.max(first);
+        if is_due {
+            self.examined_from = 2 * ended;
+        }
+        is_due
+    }
+
+    /// Number of steps that ended at each switch; those at which none ended may be missing.
+    pub(crate) fn ended(&self) -> &[usize] {
+        &self.ended
+    }
+
     /// Sets the branches of these functions above zero.
     pub(crate) fn rise(&mut self, indices: impl Iterator<Item = usize>) {
         for index in indices {
@@ -460,6 +479,10 @@ impl EventDetector {
                 if event.stops {
                     known.stopped_by.get_or_insert(k);
                 }
+            } else {
+                let switch = k - events.len();
+                known.ended.resize(known.ended.len().max(switch + 1), 0);
+                known.ended[switch] += 1;
             }
         }
         if time - known.recent.0 > longest || has_progressed {

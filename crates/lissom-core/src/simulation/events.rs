@@ -1,7 +1,7 @@
 //! Steps that end at events and at switches of forces.
 
 use super::event_detector::LocatedRoot;
-use crate::errors::StepError;
+use crate::errors::{MAX_LISTED, StepError, Warning, warn};
 use crate::kinematics::Subject;
 use crate::settings::{Problem, StepReport, Stopwatch};
 use crate::signals::event::Occurrence;
@@ -12,6 +12,9 @@ use crate::system::Need;
 
 /// Maximum nesting depth of laws with levels whose arguments have levels themselves.
 const MAX_NESTED_LEVELS: usize = 8;
+/// Number of steps that end at laws from which these are reported, and their fraction of all steps.
+const MIN_LAW_ENDS: usize = 256;
+const LAW_ENDS: f64 = 0.25;
 
 /// Decision on an attempt that has a solution.
 pub(crate) enum Verdict {
@@ -100,6 +103,7 @@ impl Simulation {
             .map_err(|which| self.chatters(which))?;
         if located.is_some() {
             self.stops.history.add_break(Break::Slope);
+            self.report_laws_that_end_steps();
         }
         self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
         if happened.is_empty() {
@@ -166,6 +170,40 @@ impl Simulation {
             self.freeze_switches()?;
         }
         Ok(())
+    }
+
+    /// The kinks and jumps of forces at which most steps have ended, at most `count`, with the numbers of these steps.
+    pub fn laws_that_end_steps(&self, count: usize) -> Vec<(Subject, usize)> {
+        let mut found: Vec<(Subject, usize)> = Vec::new();
+        for (switch, &steps) in self.events.known.ended().iter().enumerate().filter(|(_, steps)| **steps > 0)
+        {
+            let subject = self.system.name_of_switch(switch);
+            match found.iter_mut().find(|(known, _)| *known == subject) {
+                Some((_, sum)) => *sum += steps,
+                None => found.push((subject, steps)),
+            }
+        }
+        found.sort_by_key(|(_, steps)| std::cmp::Reverse(*steps));
+        found.truncate(count);
+        found
+    }
+
+    /// Reports laws of signals and local loads at which many steps end; contacts and stops end steps by their nature.
+    fn report_laws_that_end_steps(&mut self) {
+        // The names of all switches are found a few times in a run.
+        if !self.events.known.is_examination_due(MIN_LAW_ENDS) {
+            return;
+        }
+        let mut laws = self.laws_that_end_steps(usize::MAX);
+        laws.retain(|(subject, _)| !subject.kind.is_empty());
+        let (ended, steps) = (laws.iter().map(|(_, steps)| steps).sum::<usize>(), self.totals.steps + 1);
+        if (ended as f64) < LAW_ENDS * steps as f64 || ended < MIN_LAW_ENDS {
+            return;
+        }
+        let words = laws.iter().take(MAX_LISTED).map(|(law, steps)| format!("{law} ({steps})"));
+        let laws = Subject::nameless(words.collect::<Vec<_>>().join(", "));
+        let time = self.state.kinematics.time;
+        warn(&mut self.warnings, Warning::LawsEndSteps { time, ended, steps, laws });
     }
 
     fn chatters(&self, which: usize) -> StepError {

@@ -450,6 +450,10 @@ impl Spring for Rope {
         [shape.elongation, shape.rate, self.tension(&shape, at).force]
     }
 
+    fn slack(&self, at: &Kinematics) -> Option<[f64; 2]> {
+        Some([-self.shape(at).elongation, self.length.value(at.time)])
+    }
+
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
         let shape = self.shape(at);
         self.tension(&shape, at).gradients(self.gradients(&shape))

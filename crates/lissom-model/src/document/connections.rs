@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use lissom_motion::Vector3;
 
 use super::entries::PARTS;
+use super::plausibility;
 use super::{
     AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputKind,
     OutputSource, PointMass, Subject, Superelement, interface_name,
@@ -35,6 +36,11 @@ pub(super) fn places(
 }
 
 impl Places {
+    /// Positions of all nodes but those of beams.
+    pub(super) fn all(&self) -> impl Iterator<Item = Vector3> + '_ {
+        self.points.values().copied()
+    }
+
     /// Position of a node; the origin for the ground.
     pub(super) fn of(&self, node: &NodeReference) -> Option<Vector3> {
         match node {
@@ -51,7 +57,8 @@ impl Places {
 }
 
 /// Checks that require the whole model.
-pub(super) fn check(context: &Context<'_>, document: &Document) {
+pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
+    plausibility::check(context, document, places);
     free_parts(context, document);
     functions(context, document);
     unused(context, document);
@@ -282,7 +289,7 @@ impl<'d> Groups<'d> {
 
 const GROUND: &str = "ground";
 
-fn part_of(node: &NodeReference) -> &str {
+pub(super) fn part_of(node: &NodeReference) -> &str {
     match node {
         NodeReference::Ground => GROUND,
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,

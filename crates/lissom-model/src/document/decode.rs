@@ -133,7 +133,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         warnings: Report::new(Vec::new(), context.sources),
         sources: context.sources.clone(),
     };
-    connections::check(context, &document);
+    connections::check(context, &document, &places);
     events::check(context, &document.analysis);
     Some(document)
 }

@@ -21,6 +21,7 @@ mod materials;
 pub(crate) mod model_text;
 mod outputs;
 mod places;
+mod plausibility;
 mod ports;
 mod rigid_contacts;
 mod signals;

@@ -32,8 +32,11 @@ pub enum TableError {
     #[error("a table needs at least two rows")]
     TooShort,
     /// Times do not ascend from this row to the next.
-    #[error("the first column must ascend strictly, but row {} is not later than row {}", .0 + 2, .0 + 1)]
+    #[error("the first column must ascend, but row {} is before row {}", .0 + 2, .0 + 1)]
     NotAscending(usize),
+    /// This row and the next have the same time.
+    #[error("rows {} and {} have the same argument", .0 + 1, .0 + 2)]
+    Repeated(usize),
     /// A number is not finite in this row.
     #[error("row {} has a number that is not finite", .0 + 1)]
     NotFinite(usize),
@@ -43,6 +46,22 @@ pub enum TableError {
     /// The rows of a periodic table are longer than the period.
     #[error("its rows are longer than its period")]
     TooLong,
+}
+
+impl TableError {
+    /// What to change.
+    pub(crate) fn remedy(self) -> &'static str {
+        match self {
+            Self::TooShort => "write at least two rows [argument, value]",
+            Self::NotAscending(_) => "sort the rows by their first column",
+            Self::Repeated(_) => {
+                "remove one of them; a jump needs an expression, such as `step(t - 2)`, or two arguments close to each other"
+            }
+            Self::NotFinite(_) => "write finite numbers",
+            Self::NotClosed => "let the last row have the value of the first one",
+            Self::TooLong => "give a longer `period`, or remove rows",
+        }
+    }
 }
 
 /// A table of arguments and values.
@@ -82,8 +101,12 @@ impl Table {
         if let Some(row) = rows.iter().position(|(x, y)| !(x.is_finite() && y.is_finite())) {
             return Err(TableError::NotFinite(row));
         }
-        if let Some(row) = rows.windows(2).position(|pair| pair[0].0 >= pair[1].0) {
+        // A row that is out of order is the cause where a repeated argument may be its consequence.
+        if let Some(row) = rows.windows(2).position(|pair| pair[0].0 > pair[1].0) {
             return Err(TableError::NotAscending(row));
+        }
+        if let Some(row) = rows.windows(2).position(|pair| pair[0].0 == pair[1].0) {
+            return Err(TableError::Repeated(row));
         }
         let (arguments, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
         let between = |arguments: &[f64], values: &[f64]| match interpolation {
@@ -473,7 +496,8 @@ mod tests {
     fn bad_tables_are_refused() {
         let read = |rows: &[(f64, f64)]| Table::new(rows, Interpolation::Spline, Extrapolation::Constant);
         assert_eq!(read(&[(0.0, 1.0)]), Err(TableError::TooShort));
-        assert_eq!(read(&[(0.0, 1.0), (1.0, 1.0), (1.0, 2.0)]), Err(TableError::NotAscending(1)));
+        assert_eq!(read(&[(0.0, 1.0), (1.0, 1.0), (1.0, 2.0)]), Err(TableError::Repeated(1)));
+        assert_eq!(read(&[(0.0, 1.0), (1.0, 1.0), (0.5, 2.0)]), Err(TableError::NotAscending(1)));
         assert_eq!(read(&[(0.0, 1.0), (f64::NAN, 1.0)]), Err(TableError::NotFinite(1)));
     }
 

@@ -80,13 +80,13 @@ impl Context<'_> {
                 of_rows(&read).map_or_else(
                     |error| {
                         let place = match error {
-                            TableError::NotAscending(row) => rows.get(row + 1),
+                            TableError::NotAscending(row) | TableError::Repeated(row) => rows.get(row + 1),
                             TableError::NotFinite(row) => rows.get(row),
                             TableError::TooShort | TableError::NotClosed | TableError::TooLong => None,
                         };
                         let message = format!("{what} is not a function: {error}");
                         let span = place.map_or(table.span, |row| row.span);
-                        self.fail(span, message, "write rows [argument, value] in ascending order")
+                        self.fail(span, message, error.remedy())
                     },
                     Some,
                 )
@@ -131,14 +131,17 @@ impl Context<'_> {
         };
         of_rows(&rows.values).map_or_else(
             |error| {
-                let error = match error {
+                let words = match error {
                     TableError::NotAscending(row) => {
-                        format!("line {}: the first column must ascend strictly", rows.lines[row + 1])
+                        format!("line {}: the first column must ascend", rows.lines[row + 1])
+                    }
+                    TableError::Repeated(row) => {
+                        let lines = [rows.lines[row], rows.lines[row + 1]];
+                        format!("lines {} and {} have the same argument", lines[0], lines[1])
                     }
                     _ => error.to_string(),
                 };
-                let help = "sort the rows by the first column, and end with the last row of a period";
-                self.fail(file.span, format!("{what}: `{name}`: {error}"), help)
+                self.fail(file.span, format!("{what}: `{name}`: {words}"), error.remedy())
             },
             Some,
         )

@@ -5,6 +5,9 @@ use std::ops::Range;
 
 /// Columns that are written before words go on in the next line.
 const WIDTH: usize = 110;
+/// Columns of a line of the text above which only those around its labels are written, and columns before the first of them.
+const MAX_COLUMNS: usize = 120;
+const COLUMNS_BEFORE: usize = 30;
 /// Replacement of a tab.
 const TAB: &str = "    ";
 
@@ -58,6 +61,7 @@ pub(crate) struct Painter<'a> {
 }
 
 /// Where a label is drawn: line, first column and count of columns, all from zero, as they are shown.
+#[derive(Clone, Copy)]
 struct Underline<'a> {
     line: usize,
     first: usize,
@@ -116,10 +120,12 @@ impl Painter<'_> {
             next = Some(line + 1);
             let number = self.painted(&format!("{:>1$}", line + 1, margin - 1), "2");
             let text = lines[line].trim_end_matches('\r').replace('\t', TAB);
-            self.line(&format!("{number} │ {text}"));
-            let mut here: Vec<&Underline<'_>> = places.iter().filter(|place| place.line == line).collect();
+            let mut here: Vec<Underline<'_>> =
+                places.iter().filter(|place| place.line == line).copied().collect();
             here.sort_by_key(|place| place.first);
-            self.underline(&empty, &here);
+            let text = cut(text, &mut here);
+            self.line(&format!("{number} │ {text}"));
+            self.underline(&empty, &here.iter().collect::<Vec<_>>());
         }
         self.line(&format!("{empty}╰────"));
     }
@@ -161,6 +167,26 @@ impl Painter<'_> {
         // Writing to a string cannot fail.
         let _ = writeln!(self.out, "{}", line.trim_end_matches(' '));
     }
+}
+
+/// The part of a long line around its labels, which move with it.
+fn cut(text: String, labels: &mut [Underline<'_>]) -> String {
+    let count = text.chars().count();
+    if count <= MAX_COLUMNS {
+        return text;
+    }
+    let first = labels.first().map_or(0, |label| label.first.saturating_sub(COLUMNS_BEFORE));
+    let first = if first <= 1 { 0 } else { first };
+    let last = labels.iter().map(|label| label.first + label.count.min(MAX_COLUMNS)).max().unwrap_or(0);
+    let end = (first + MAX_COLUMNS).max(last).min(count);
+    let (before, after) = (if first > 0 { "…" } else { "" }, if end < count { "…" } else { "" });
+    for label in labels {
+        label.count = label.count.min(end.saturating_sub(label.first)).max(1);
+        // The sign for what is left out takes one column.
+        label.first = label.first - first + before.chars().count();
+    }
+    let shown: String = text.chars().skip(first).take(end - first).collect();
+    format!("{before}{shown}{after}")
 }
 
 /// Position of a label. A range of several lines is underlined in the first one, an empty range as one character.
@@ -242,6 +268,20 @@ mod tests {
             "   ╰────\n",
         );
         assert_eq!(drawn(text, &[(5..6, "first"), (8..9, "later"), (21..22, "")]), wanted);
+    }
+
+    #[test]
+    fn long_lines_are_cut_around_their_labels() {
+        let text = format!("short\nkey = [{}WRONG{}]\nend", "1, ".repeat(100), ", 2".repeat(100));
+        let start = text.find("WRONG").unwrap();
+        let drawn = drawn(&text, &[(start..start + 5, "here")]);
+        let lines: Vec<&str> = drawn.lines().collect();
+        assert!(drawn.lines().all(|line| line.chars().count() < MAX_COLUMNS + 10), "{drawn}");
+        let shown = lines.iter().find(|line| line.contains("WRONG")).unwrap();
+        assert!(shown.contains("│ …") && shown.ends_with('…'), "{drawn}");
+        let column = |line: &str, sign: char| line.chars().position(|own| own == sign).unwrap();
+        assert_eq!(column(lines[3], '─'), column(shown, 'W'), "{drawn}");
+        assert!(lines[0].contains("a.toml:2:308"), "{drawn}");
     }
 
     #[test]

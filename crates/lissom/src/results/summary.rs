@@ -7,6 +7,7 @@ use lissom_core::assembly::Gap;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::elements::Energy;
 use lissom_core::errors::InitialError;
+use lissom_core::kinematics::Subject;
 use lissom_core::scaling::Representative;
 use lissom_model::Document;
 use lissom_model::output::Column;
@@ -18,6 +19,9 @@ use crate::diagnostic::{self, with_code};
 use crate::model_text::Model;
 use crate::run::report::RunReport;
 use crate::session::{Session, columns};
+
+/// Laws at whose kinks and jumps most steps ended that are listed.
+const MAX_LAWS: usize = 5;
 
 pub(crate) fn insert(summary: &mut Summary, name: &str, fact: Value) {
     summary.insert(name, fact).expect("a JSON value can be written as JSON");
@@ -99,7 +103,7 @@ pub fn of_model(model: &Model, document: &Document, lowered: &Lowered) -> Summar
     let columns = columns(channels);
     let column = |column: &crate::Column| {
         let is_unique = !lowered.not_unique.contains(&column.name());
-        json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "unique": is_unique })
+        json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "plot": column.plot, "unique": is_unique })
     };
     insert("columns", columns.iter().map(column).collect());
     if let Some(assembly) = &lowered.assembly {
@@ -175,6 +179,9 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     insert("records", json!(report.records));
     insert("steps", json!(totals.steps));
     insert("rejected_steps", json!(totals.rejected_steps));
+    let laws = simulation.laws_that_end_steps(MAX_LAWS);
+    let law = |(law, steps): &(Subject, usize)| json!({ "law": law.to_string(), "steps": steps });
+    insert("laws_that_end_steps", laws.iter().map(law).collect());
     insert("stagnated_steps", json!(totals.stagnated_steps));
     insert("newton_iterations", json!(totals.newton_iterations));
     insert("factorizations", json!(totals.factorizations));

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod drives;
+mod immobile;
 mod redundancy;
 mod steady;
 
@@ -113,6 +114,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     let Built { system, state, names, .. } = built;
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
+    warnings.extend(immobile::immobile(document, &system, &state));
     let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
     Ok(Lowered {
         system: Arc::new(system),

@@ -1,0 +1,187 @@
+//! Numbers that are probably in other units, and geometry that is probably a slip: millimetres, megapascals, degrees. Each is a
+//! warning, which names the unit that the program reads.
+
+use std::f64::consts::TAU;
+
+use super::connections::{Places, part_of};
+use super::{AnalysisKind, Body, Component, Document, NodeReference};
+use crate::parts::context::Context;
+use crate::text::report::{Problem, Span};
+
+/// Gravity above this is that in mm/s² [m/s²].
+const MAX_GRAVITY: f64 = 1000.0;
+/// Densities below this are those in t/mm³ or kg/mm³; the lightest foams have a few kg/m³ [kg/m³].
+const MIN_DENSITY: f64 = 0.01;
+/// Young's modulus below this, of a material as dense as metals, is that in MPa or GPa [Pa, kg/m³].
+const MIN_MODULUS: (f64, f64) = (1e6, 2000.0);
+/// Radius of gyration above this, of a body with less than this mass, is that of an inertia in kg mm² [m, kg].
+const MAX_GYRATION: (f64, f64) = (10.0, 1000.0);
+/// Radius of gyration beyond the extent of the whole model by this factor.
+const GYRATION_TO_EXTENT: f64 = 10.0;
+/// Extent of a model whose parts all have less than this mass, above which it is that in mm [m, kg].
+const MAX_EXTENT: (f64, f64) = (200.0, 20.0);
+/// Distance of a joint from a part that it holds, beyond the extent of all parts by this factor.
+const JOINT_TO_EXTENT: f64 = 5.0;
+/// Speeds of a drive that are probably in degrees per second.
+const DEGREES: [f64; 8] = [45.0, 90.0, 180.0, 360.0, 720.0, 1080.0, 1800.0, 3600.0];
+
+/// Warns of what is improbable.
+pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
+    let doubts = [units, inertias, joints, degrees].into_iter().flat_map(|find| find(document, places));
+    for (span, message, help) in doubts {
+        context.report(Problem::warning(span, message).help(help));
+    }
+    if let Some((gravity, _)) = context.top("gravity")
+        && document.gravity.norm() > MAX_GRAVITY
+    {
+        let message = format!("gravity is {} m/s²", document.gravity.norm());
+        context.report(Problem::warning(gravity.span, message).help("write it in m/s², and lengths in m"));
+    }
+    nothing_moves(context, document);
+}
+
+/// What is doubtful: where, why, and what is probably meant.
+type Doubt = (Span, String, String);
+
+/// Largest distance between two corners of the box around all parts, the ground apart [m].
+fn extent(document: &Document, places: &Places) -> f64 {
+    let ends = document.beams.iter().flat_map(|beam| [0.0, 1.0].map(|s| beam.line.position(s)));
+    let mut all = places.all().chain(ends);
+    let Some(first) = all.next() else { return 0.0 };
+    let (low, high) = all.fold((first, first), |(low, high), own| (low.inf(&own), high.sup(&own)));
+    (high - low).norm()
+}
+
+fn units(document: &Document, places: &Places) -> Vec<Doubt> {
+    let mut doubts = Vec::new();
+    for material in &document.materials {
+        let (name, constants) = (&material.name, material.constants);
+        if constants.density > 0.0 && constants.density < MIN_DENSITY {
+            let message = format!("material `{}` has a density of {:e} kg/m³", name.value, constants.density);
+            doubts.push((name.span, message, "write it in kg/m³: steel has 7850".to_owned()));
+        }
+        if constants.young < MIN_MODULUS.0 && constants.density > MIN_MODULUS.1 {
+            let message = format!(
+                "material `{}` of {} kg/m³ has a Young's modulus of {:e} Pa, less than rubber",
+                name.value, constants.density, constants.young
+            );
+            doubts.push((name.span, message, "write it in Pa: steel has 2.1e11".to_owned()));
+        }
+    }
+    let masses = document.bodies.iter().map(|body| (&body.name, body.mass));
+    let masses = masses.chain(document.point_masses.iter().map(|mass| (&mass.name, mass.mass)));
+    let heaviest = masses.max_by(|a, b| a.1.total_cmp(&b.1));
+    let extent = extent(document, places);
+    if let Some((name, mass)) = heaviest
+        && document.beams.is_empty()
+        && mass < MAX_EXTENT.1
+        && extent > MAX_EXTENT.0
+    {
+        let message = format!(
+            "the parts are up to {extent:.0} m apart, and the heaviest, `{}`, has {mass} kg",
+            name.value
+        );
+        doubts.push((name.span, message, "write lengths in m, not in mm".to_owned()));
+    }
+    doubts
+}
+
+/// The radius of gyration about the axis of the largest inertia [m].
+fn gyration(body: &Body) -> f64 {
+    (body.inertia.symmetric_eigenvalues().max() / body.mass).sqrt()
+}
+
+fn inertias(document: &Document, places: &Places) -> Vec<Doubt> {
+    let extent = extent(document, places);
+    let doubt = |body: &Body| {
+        let radius = gyration(body);
+        let is_large = radius > MAX_GYRATION.0 && body.mass < MAX_GYRATION.1;
+        let is_beyond = extent > 0.0 && radius > GYRATION_TO_EXTENT * extent;
+        (body.mass > 0.0 && (is_large || is_beyond)).then(|| {
+            let message = format!(
+                "body `{}` of {} kg has a radius of gyration of {radius:.3} m, as if its mass were that far from its centre",
+                body.name.value, body.mass
+            );
+            (body.name.span, message, "write `inertia` in kg m²: 1 kg mm² is 1e-6 kg m²".to_owned())
+        })
+    };
+    document.bodies.iter().filter_map(doubt).collect()
+}
+
+/// Joints far from what they hold.
+fn joints(document: &Document, places: &Places) -> Vec<Doubt> {
+    let extent = extent(document, places);
+    let far = |joint: &Component| {
+        joint.attachment.nodes.iter().find_map(|own| {
+            let at = own.at?;
+            let is_body = matches!(own.node.value, NodeReference::Body(_) | NodeReference::PointMass(_));
+            let distance = (places.of(&own.node.value)? - at).norm();
+            let reach = JOINT_TO_EXTENT * extent;
+            (is_body && extent > 0.0 && distance > reach).then(|| {
+                let message = format!(
+                    "`{}` is {distance:.3} m from `{}`, which it holds, and all parts are within {extent:.3} m",
+                    joint.name.value,
+                    part_of(&own.node.value)
+                );
+                (joint.name.span, message, "correct its position `at`, which is in m, global axes".to_owned())
+            })
+        })
+    };
+    document.joints.iter().filter_map(far).collect()
+}
+
+/// Drives whose speed is a round number of degrees per second.
+fn degrees(document: &Document, _: &Places) -> Vec<Doubt> {
+    let time = document.analysis.start + 1e-3 * (document.analysis.end - document.analysis.start);
+    let doubt = |joint: &Component| {
+        if joint.kind.value != "prescribed_rotation" {
+            return None;
+        }
+        let speed = joint.parameters.function("rotation").ok()?.first_derivative(time);
+        DEGREES.iter().any(|own| (speed.abs() - own).abs() < 1e-9 * own).then(|| {
+            let message = format!(
+                "the drive `{}` turns by {:.1} revolutions per second: angles are in radians",
+                joint.name.value,
+                speed.abs() / TAU
+            );
+            let help = format!("write `{}*pi/180*t` for {} degrees per second", speed.abs(), speed.abs());
+            (joint.span_of("rotation"), message, help)
+        })
+    };
+    document.joints.iter().filter_map(doubt).collect()
+}
+
+/// A motion without anything that could begin it: no weight, no velocity, no load, no drive and no spring under tension.
+fn nothing_moves(context: &Context<'_>, document: &Document) {
+    let AnalysisKind::Dynamics { .. } = document.analysis.kind else { return };
+    let is_driven = |joint: &Component| {
+        joint.kind.value.starts_with("prescribed")
+            || ["rate", "velocity"].iter().any(|key| joint.parameters.has(key))
+    };
+    let moves = document.bodies.iter().any(|body| body.velocity.is_some() || body.angular_velocity.is_some())
+        || document.point_masses.iter().any(|mass| mass.velocity.is_some())
+        || document.joints.iter().any(is_driven);
+    let has_causes = document.gravity.norm() > 0.0
+        || !document.loads.is_empty()
+        || !document.local_loads.is_empty()
+        || !document.springs.is_empty()
+        || !document.contacts.is_empty()
+        || !document.superelements.is_empty()
+        || !document.inputs.is_empty()
+        || !document.signals.is_empty()
+        || document.beams.iter().any(|beam| !beam.distributed.is_empty())
+        || document.initial.is_some()
+        || !document.initial_of_parts.is_empty()
+        || document.assembly.is_some();
+    let parts = document.bodies.iter().map(|body| &body.name);
+    let first = parts.chain(document.beams.iter().map(|beam| &beam.name)).next();
+    if let Some(first) = first
+        && !moves
+        && !has_causes
+    {
+        let message =
+            "nothing sets the parts in motion: there is no gravity, load, drive, spring or velocity";
+        let help = "add `gravity = [0, 0, -9.81]`, a load, a drive, or a `velocity` of a part";
+        context.report(Problem::warning(first.span, message.to_owned()).help(help));
+    }
+}

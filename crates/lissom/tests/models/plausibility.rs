@@ -1,0 +1,133 @@
+//! Numbers in other units and other slips that a model file may contain without being wrong.
+
+use lissom::Model;
+
+use crate::support::runs::session;
+
+/// A pendulum on the ground, of two bodies.
+const PENDULUM: &str = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.arm]
+mass = 2
+inertia = [0.02, 0.02, 0.02]
+position = [0.5, 0, 0]
+[bodies.bob]
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [1, 0, 0]
+[joints.hinge]
+kind = "revolute"
+base = "ground"
+tip = "arm"
+axis = "y"
+at = [0, 0, 0]
+[joints.elbow]
+kind = "revolute"
+base = "arm"
+tip = "bob"
+axis = "y"
+at = [1, 0, 0]
+[analysis]
+kind = "dynamics"
+end = 1
+"#;
+
+fn warnings(text: &str) -> String {
+    let text = Model::from_text("model.toml", text).document().unwrap().warnings.render(false);
+    text.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn slips_are_named_with_the_unit_that_is_read() {
+    assert_eq!(warnings(PENDULUM), "");
+    let material = |modulus: &str, density: &str| {
+        format!("[materials.steel]\nE = {modulus}\nnu = 0.3\ndensity = {density}\n[bodies.arm]")
+    };
+    let drive =
+        "[joints.motor]\nkind = \"prescribed_rotation\"\njoint = \"hinge\"\nrotation = \"360*t\"\n[analysis]";
+    for (from, to, words) in [
+        ("-9.81", "-9810", "gravity is 9810 m/s²"),
+        ("[bodies.arm]", &*material("2.1e5", "7850"), "Young's modulus of 2.1e5 Pa, less than rubber"),
+        ("[bodies.arm]", &*material("2.1e11", "7.85e-9"), "density of 7.85e-9 kg/m³"),
+        ("[0.02, 0.02, 0.02]", "[2e4, 2e4, 2e4]", "body `arm` of 2 kg has a radius of gyration of 100.000 m"),
+        ("position = [1, 0, 0]", "position = [1000, 0, 0]", "and the heaviest, `arm`, has 2 kg"),
+        ("at = [1, 0, 0]", "at = [1000, 0, 0]", "`elbow` is 999.500 m from `arm`, which it holds"),
+        ("[analysis]", drive, "`motor` turns by 57.3 revolutions per second: angles are in radians"),
+        ("gravity = [0, 0, -9.81]", "", "nothing sets the parts in motion"),
+    ] {
+        let found = warnings(&PENDULUM.replacen(from, to, 1));
+        assert!(found.contains(words), "{words}: {found}");
+    }
+}
+
+/// A four-bar linkage with one hinge across the others moves nowhere, without violating anything.
+#[test]
+fn a_wrong_axis_in_a_loop_is_named() {
+    let link =
+        |name: &str, at: &str| format!("[bodies.{name}]\nmass = 1\ninertia = [1, 1, 1]\nposition = {at}\n");
+    let hinge = |name: &str, base: &str, tip: &str, at: &str, axis: &str| {
+        format!(
+            "[joints.{name}]\nkind = \"revolute\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {at}\naxis = \"{axis}\"\n"
+        )
+    };
+    let linkage = |axis: &str| {
+        [
+            "lissom = 1\ngravity = [0, -9.81, 0]\n".to_owned(),
+            link("crank", "[0, 0.5, 0]"),
+            link("rod", "[0.7, 1, 0]"),
+            link("rocker", "[1.4, 0.5, 0]"),
+            hinge("a", "ground", "crank", "[0, 0, 0]", "z"),
+            hinge("b", "crank", "rod", "[0, 1, 0]", "z"),
+            hinge("c", "rod", "rocker", "[1.4, 1, 0]", axis),
+            hinge("d", "ground", "rocker", "[1.4, 0, 0]", "z"),
+            "[analysis]\nkind = \"dynamics\"\nend = 0.1\n".to_owned(),
+        ]
+        .concat()
+    };
+    let of = |axis: &str| {
+        let session = session(&linkage(axis), &[]);
+        session.warnings().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert!(!of("z").contains("degrees of freedom"), "{}", of("z"));
+    let found = of("y");
+    assert!(
+        found.contains("0 degrees of freedom: the axis of `c` is not parallel to those of `a`, `b`, `d`"),
+        "{found}"
+    );
+}
+
+/// Twelve kinks in each period of an oscillation: most steps end at one, and the load with the kinks is named.
+#[test]
+fn laws_that_end_most_steps_are_named() {
+    let terms: Vec<String> = (1..=6).map(|k| format!("abs(z - {})", 0.03 * f64::from(k))).collect();
+    let text = format!(
+        "lissom = 1\n[bodies.a]\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0.3]\n[springs.s]\nkind = \"point\"\n\
+         base = \"ground\"\ntip = \"a\"\nat_base = [0, 0, -1]\nstiffness = 1000\nlength = 1\n[local_loads.wind]\non = \"a\"\n\
+         axes = \"global\"\nvariables = {{ size = \"{}\" }}\nforce = [0, 0, \"1e-3*size\"]\n\
+         [analysis]\nkind = \"dynamics\"\nend = 6\nrelative_tolerance = 1e-4\n",
+        terms.join(" + ")
+    );
+    let mut session = session(&text, &[]);
+    session.run().unwrap();
+    let warnings = session.warnings().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    assert!(
+        warnings.contains("steps ended at kinks or jumps of laws: variable `size` of local load `wind`"),
+        "{warnings}"
+    );
+    let laws = session.simulation().laws_that_end_steps(5);
+    assert!(laws.len() == 1 && laws[0].1 > 256, "{laws:?}");
+}
+
+#[test]
+fn a_slack_rope_is_named_with_its_slack() {
+    let text = "lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.a]\nmass = 1\ninertia = [1, 1, 1]\n[springs.r]\nkind = \"rope\"\n\
+                along = [{ on = \"ground\", at = [0, 0, 5] }, { on = \"a\", at = [0, 0, 0] }]\nstiffness = 1e4\nlength = LENGTH\n\
+                [analysis]\nkind = \"dynamics\"\nend = 0.1\n";
+    let of = |length: &str| {
+        let session = session(&text.replace("LENGTH", length), &[]);
+        session.warnings().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert!(of("18.1").contains("the rope on `a` is slack by 13.100 m"), "{}", of("18.1"));
+    assert_eq!(of("5.1"), "");
+}
