@@ -196,7 +196,7 @@ impl Scaled {
             acceleration: weights.acceleration * (self.dynamic / (self.h * self.h)),
             augmented: self.augmented,
             constraint: self.s,
-            slip: weights.velocity * self.s,
+            slip: weights.slip * self.s,
             turning: self.s * self.h,
         }
     }

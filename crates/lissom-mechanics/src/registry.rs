@@ -334,6 +334,14 @@ pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
 )
 .or_number(0.0);
 
+/// The initial rate of a joint's relative rotation.
+pub(crate) const RATE_AT_START: Parameter = Parameter::optional(
+    "rate",
+    ParameterType::Number,
+    "rad/s",
+    "Rate of the relative rotation at the start, which parts without a given velocity follow.",
+);
+
 /// The initial relative displacement of a joint.
 pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
     "displacement",
@@ -342,6 +350,14 @@ pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
     "Value of the relative displacement at the start.",
 )
 .or_number(0.0);
+
+/// The initial velocity of a joint's relative displacement.
+pub(crate) const VELOCITY_AT_START: Parameter = Parameter::optional(
+    "velocity",
+    ParameterType::Number,
+    "m/s",
+    "Velocity of the relative displacement at the start, which parts without a given velocity follow.",
+);
 
 /// Which coordinate of a joint that has several.
 pub(crate) const COORDINATE: Parameter = Parameter::optional(

@@ -17,7 +17,7 @@ use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 use lissom_solver::{Pattern, Structure};
 
 pub use self::drawn::PlaceOnTip;
-use self::drawn::{joint_rotation, start_values};
+use self::drawn::{joint_rotation, start_rates, start_values};
 pub use self::joint::{BeamChain, JointAttachment};
 use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
@@ -315,6 +315,7 @@ impl Builder {
                 |error| ParameterError::new(&error.parameter, error.problem + ", or use `distance`"),
             )?;
         }
+        let rates = start_rates(joint.as_ref(), parameters)?;
         let coordinates: Vec<CoordinateId> = joint
             .coordinates()
             .iter()
@@ -323,7 +324,7 @@ impl Builder {
                 self.model.add_coordinate(Coordinate {
                     name: format!("{name}.{}", coordinate.name),
                     value: values[k],
-                    rate: 0.0,
+                    rate: rates[k],
                     quantity: coordinate.quantity,
                 })
             })

@@ -15,12 +15,17 @@ use crate::errors::InitialError;
 use crate::errors::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
-use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, Quantity};
 use crate::round_off;
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 use crate::tuning::MAX_ITERATIONS;
+
+/// Factor of the inertias of parts whose velocity is given beside those that follow them.
+const EMPHASIS: f64 = 1e4;
+/// Projections with it: what remains after three is round-off.
+const EMPHASISED_PROJECTIONS: usize = 3;
 
 /// Inertias that define the metric of a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,16 +227,85 @@ impl ConsistentInitialConditions {
         Ok(self.project(system, state, &[]))
     }
 
-    /// Like [`velocities`](Self::velocities), for given velocities of parts: rates of joint coordinates were not given, and follow
-    /// from them whatever their own mass.
+    /// Like [`velocities`](Self::velocities), for given velocities of parts and joint coordinates: those that were not given, which
+    /// are zero, follow from them whatever their mass.
     ///
     /// # Errors
     /// If constraints are redundant, or a coordinate has neither mass nor constraint.
     pub fn given_velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
-        if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
-            return Ok(self.project(system, state, &[]));
+        let is_given = self.given_rows(system, &state.kinematics);
+        if is_given.iter().all(|given| *given) || !is_given.contains(&true) {
+            if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
+                return Ok(self.project(system, state, &[]));
+            }
+            return self.velocities(system, state);
         }
-        self.velocities(system, state)
+        let factor = |own: &mut Self| {
+            own.factor(system, state, Inertias::OfParts)?;
+            own.emphasise(system, &is_given);
+            own.factor_weights(system)
+        };
+        if factor(self).is_err() {
+            return self.velocities(system, state);
+        }
+        let given = state.kinematics.clone();
+        let mut rates = vec![0.0; system.layout().size()];
+        gather_rates(system.layout(), &given, &mut rates);
+        let mut change = self.project(system, state, &[]);
+        // Consistent velocities are reached to EMPHASIS^-k: each time the given ones are restored, and what is left is corrected.
+        for _ in 1..EMPHASISED_PROJECTIONS {
+            restore(system.layout(), (&is_given, &rates), &mut state.kinematics);
+            self.project(system, state, &[]);
+        }
+        for (node, before) in state.kinematics.nodes.iter().zip(&given.nodes) {
+            change = change.max((node.twist - before.twist).amax());
+        }
+        Ok(change)
+    }
+
+    /// Rows of the nodes and joint coordinates with a given velocity: one that is not zero beside the largest.
+    fn given_rows(&self, system: &System, at: &Kinematics) -> Vec<bool> {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let mut rates = vec![0.0; layout.size()];
+        gather_rates(layout, at, &mut rates);
+        let speed = |row: usize| match layout.quantities()[row] {
+            Quantity::Length => rates[row].abs(),
+            Quantity::Angle => rates[row].abs() * self.radian,
+            Quantity::State => 0.0,
+        };
+        let largest = (0..count).map(speed).fold(0.0, f64::max);
+        let is_fast = |row: usize| speed(row) > round_off::GIVEN * largest;
+        let mut is_given: Vec<bool> = (0..count).map(is_fast).collect();
+        for rows in &layout.node_rows {
+            let own = || rows.iter().filter(|&&row| row != LOCKED).map(|&row| row as usize);
+            if own().any(|row| is_given[row]) {
+                own().for_each(|row| is_given[row] = true);
+            }
+        }
+        is_given
+    }
+
+    /// Multiplies the inertias of some rows, which keep their velocities then; those of joint coordinates are of the size of the
+    /// model's.
+    fn emphasise(&mut self, system: &System, is_given: &[bool]) {
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let factor = |row: usize| if is_given.get(row) == Some(&true) { EMPHASIS } else { 1.0 };
+        for column in 0..is_given.len() {
+            for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                let row = pattern.row_indices()[position];
+                self.weights[position] *= (factor(row) * factor(column)).sqrt();
+            }
+        }
+        let coordinates = system.joints().iter().flat_map(|joint| &joint.coordinates);
+        for row in coordinates.map(|&coordinate| layout.row_of_coordinate(coordinate)) {
+            if is_given[row]
+                && let Some(diagonal) = pattern.position(row, row)
+            {
+                let arm = if layout.quantities()[row] == Quantity::Angle { self.radian } else { 1.0 };
+                self.weights[diagonal] += EMPHASIS * self.scale * arm * arm;
+            }
+        }
     }
 
     /// Adds the change of velocities that satisfies the constraints and is caused by `impulses`, by row; none if empty. Returns the
@@ -532,6 +606,16 @@ pub(crate) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics
     for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
         coordinate.rate = values[row as usize];
     }
+}
+
+/// Sets the rates of some rows.
+fn restore(layout: &Layout, (is_given, rates): (&[bool], &[f64]), at: &mut Kinematics) {
+    let mut all = vec![0.0; layout.size()];
+    gather_rates(layout, at, &mut all);
+    for (row, rate) in rates.iter().enumerate().filter(|(row, _)| is_given.get(*row) == Some(&true)) {
+        all[row] = *rate;
+    }
+    scatter_rates(layout, &all, at);
 }
 
 pub(crate) fn scatter_accelerations(layout: &Layout, values: &[f64], at: &mut Kinematics) {

@@ -45,7 +45,7 @@ impl<'a> RealShift<'a> {
     pub(super) fn factor(&mut self, parts: &Linearization, shift: f64) -> Result<usize, FactorError> {
         let magnitude = if shift == 0.0 { self.small_square() } else { shift.abs() };
         self.scaled = Scaled::at_rate(&self.representative, magnitude.sqrt());
-        let blend = self.scaled.blend(Weights { velocity: 0.0, acceleration: -shift / magnitude });
+        let blend = self.scaled.blend(Weights::of_motion(0.0, -shift / magnitude));
         for (k, value) in self.saddle.matrices.values.iter_mut().enumerate() {
             *value = blend.place * parts.stiffness[k]
                 + blend.acceleration * parts.mass[k]
@@ -124,7 +124,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
     pub(super) fn factor(&mut self, parts: &Linearization, shift: S) -> Result<(), FactorError> {
         self.scaled = Scaled::at_rate(&self.representative, shift.size());
         let unit = shift * shift.size().recip();
-        let blend = self.scaled.blend(Weights { velocity: unit, acceleration: unit * unit });
+        let blend = self.scaled.blend(Weights::of_motion(unit, unit * unit));
         for (k, value) in self.saddle.matrices.values.iter_mut().enumerate() {
             *value = blend.acceleration * parts.mass[k]
                 + blend.rate * parts.damping[k]

@@ -343,7 +343,7 @@ impl PathEquations<'_> {
         let mut values = std::mem::take(&mut self.work.saddle.matrices.values);
         let mut other = std::mem::take(&mut self.work.other_values);
         let mut scratch = std::mem::take(&mut self.work.scratch);
-        let blend = self.work.scaled.blend(Weights { velocity: 0.0, acceleration: 0.0 });
+        let blend = self.work.scaled.blend(Weights::AT_REST);
         let system = match &mut *self.systems {
             PathSystems::Loads([_, loaded]) => Some(Arc::clone(loaded)),
             PathSystems::Number(number) => number.at(self.work.iterate.load_factor),

@@ -13,7 +13,7 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START};
+use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START, RATE_AT_START, VELOCITY_AT_START};
 
 /// Index of the displacement among the coordinates, after the rotation.
 const SLIDE: usize = 1;
@@ -23,7 +23,7 @@ pub const KIND: JointKind = JointKind {
     name: "cylindrical",
     summary: "The tip slides along an axis and rotates about it; rotation and displacement are coordinates.",
     sample: "axis = [1.0, 0.0, 0.0]",
-    parameters: &[ANGLE_AT_START, DISPLACEMENT_AT_START],
+    parameters: &[ANGLE_AT_START, RATE_AT_START, DISPLACEMENT_AT_START, VELOCITY_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
         Ok(Box::new(Cylindrical {

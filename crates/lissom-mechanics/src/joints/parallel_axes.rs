@@ -13,14 +13,14 @@ use super::{
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::ANGLE_AT_START;
+use crate::registry::{ANGLE_AT_START, RATE_AT_START};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "parallel_axes",
     summary: "The tip rotates only about `axis` and translates freely; the relative rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
-    parameters: &[ANGLE_AT_START],
+    parameters: &[ANGLE_AT_START, RATE_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| Ok(Box::new(ParallelAxes { angle: parameters.number("angle")? }))),
 };

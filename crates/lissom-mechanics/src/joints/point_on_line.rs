@@ -13,14 +13,14 @@ use super::{
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::DISPLACEMENT_AT_START;
+use crate::registry::{DISPLACEMENT_AT_START, VELOCITY_AT_START};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "point_on_line",
     summary: "The tip's point slides along a line fixed in the base; the tip rotates freely; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
-    parameters: &[DISPLACEMENT_AT_START],
+    parameters: &[DISPLACEMENT_AT_START, VELOCITY_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
         Ok(Box::new(PointOnLine { displacement: parameters.number("displacement")? }))

@@ -13,7 +13,7 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::DISPLACEMENT_AT_START;
+use crate::registry::{DISPLACEMENT_AT_START, VELOCITY_AT_START};
 
 /// Index of the displacement among the coordinates.
 const SLIDE: usize = 0;
@@ -23,7 +23,7 @@ pub const KIND: JointKind = JointKind {
     name: "prismatic",
     summary: "The tip slides along an axis without rotation; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
-    parameters: &[DISPLACEMENT_AT_START],
+    parameters: &[DISPLACEMENT_AT_START, VELOCITY_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {
         Ok(Box::new(Prismatic { displacement: parameters.number("displacement")? }))

@@ -13,14 +13,14 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::ANGLE_AT_START;
+use crate::registry::{ANGLE_AT_START, RATE_AT_START};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "revolute",
     summary: "The tip rotates about an axis through a common point; the relative rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
-    parameters: &[ANGLE_AT_START],
+    parameters: &[ANGLE_AT_START, RATE_AT_START],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| Ok(Box::new(Revolute { angle: parameters.number("angle")? }))),
 };

@@ -15,7 +15,7 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{ANGLE_AT_START, Parameter, ParameterType};
+use crate::registry::{ANGLE_AT_START, Parameter, ParameterType, RATE_AT_START};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -30,6 +30,7 @@ pub const KIND: JointKind = JointKind {
             "Displacement along `axis` per revolution; negative for a left-handed thread.",
         ),
         ANGLE_AT_START,
+        RATE_AT_START,
     ],
     ports: Ports::AXIS,
     build: Build::Relative(|parameters, _| {

@@ -11,14 +11,14 @@ use super::{
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{DISPLACEMENT_AT_START, ParameterError};
+use crate::registry::{DISPLACEMENT_AT_START, ParameterError, VELOCITY_AT_START};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "telescopic_rod",
     summary: "A massless rod of variable length between two points, otherwise as `distance`; the displacement is a coordinate.",
     sample: "",
-    parameters: &[DISPLACEMENT_AT_START],
+    parameters: &[DISPLACEMENT_AT_START, VELOCITY_AT_START],
     ports: Ports::TWO_LOCATIONS,
     build: Build::Relative(|parameters, geometry| {
         if geometry.span.norm() == 0.0 {

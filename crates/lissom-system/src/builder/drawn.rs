@@ -3,8 +3,8 @@
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Builder, Placement};
-use lissom_mechanics::joints::AnyJoint;
-use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::joints::{AnyJoint, Coordinate};
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::{ParameterError, Parameters};
 
@@ -81,6 +81,18 @@ pub(super) fn start_values(
         .filter(|(_, name)| parameters.has(name))
         .map(|(k, name)| Ok((k, parameters.number(name)?)))
         .collect()
+}
+
+/// The given rates of a joint's coordinates at the start, zero where none is given.
+pub(super) fn start_rates(joint: &dyn AnyJoint, parameters: &Parameters) -> Result<Vec<f64>, ParameterError> {
+    let rate = |coordinate: &Coordinate| {
+        let name = match coordinate.quantity {
+            Quantity::Angle => "rate",
+            Quantity::Length | Quantity::State => "velocity",
+        };
+        if parameters.has(name) { parameters.number(name) } else { Ok(0.0) }
+    };
+    joint.coordinates().iter().map(rate).collect()
 }
 
 /// Rotation of the joint frames at the start.

@@ -143,16 +143,12 @@ fn decouple<const S: usize>(matrix: &SMatrix<f64, S, S>) -> Coupling {
             std::array::from_fn(|i| if i < S { factor * column[i] } else { 0.0.into() });
         systems.push(if is_real {
             StageSystem::Real(Decoupled {
-                weights: Weights { velocity: value.re, acceleration: value.re * value.re },
+                weights: Weights::of_motion(value.re, value.re * value.re),
                 left: left.map(|number| number.re),
                 right: right.map(|number| number.re),
             })
         } else {
-            StageSystem::Complex(Decoupled {
-                weights: Weights { velocity: value, acceleration: value * value },
-                left,
-                right,
-            })
+            StageSystem::Complex(Decoupled { weights: Weights::of_motion(value, value * value), left, right })
         });
     }
     // The real system first: its factors filter error estimates.

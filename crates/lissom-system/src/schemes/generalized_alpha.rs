@@ -92,10 +92,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let error = ErrorEstimate { combination: missed.times(of_oscillation / beta), order: 3, of_oscillation };
     Scheme {
         name,
-        coupling: Coupling::single(Weights {
-            velocity: velocity.increments[0],
-            acceleration: acceleration.increments[0],
-        }),
+        coupling: Coupling::single(Weights::of_motion(velocity.increments[0], acceleration.increments[0])),
         tableau: None,
         stages: vec![Stage { abscissa: 1.0, velocity, acceleration, prediction }],
         algorithmic: memory,

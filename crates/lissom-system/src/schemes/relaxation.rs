@@ -18,7 +18,7 @@ pub fn relaxation() -> Scheme {
         }],
         algorithmic: Combination::default(),
         parametrization: Parametrization::FromStart,
-        coupling: Coupling::single(Weights { velocity: 0.0, acceleration: 1.0 }),
+        coupling: Coupling::single(Weights { acceleration: 1.0, ..Weights::AT_REST }),
         tableau: None,
         memory_delay: 0.0,
         order: 1,

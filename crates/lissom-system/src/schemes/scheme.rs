@@ -86,6 +86,20 @@ pub struct Weights<T> {
     pub velocity: T,
     /// ∂q''/∂z.
     pub acceleration: T,
+    /// Factor of constraints of velocities.
+    pub slip: T,
+}
+
+impl Weights<f64> {
+    /// Those of load steps: a constraint of velocities, such as a latch, then keeps what it constrains at its place.
+    pub const AT_REST: Self = Self { velocity: 0.0, acceleration: 0.0, slip: 1.0 };
+}
+
+impl<T: Copy> Weights<T> {
+    /// Those of a motion.
+    pub fn of_motion(velocity: T, acceleration: T) -> Self {
+        Self { velocity, acceleration, slip: velocity }
+    }
 }
 
 /// A linear system of the size of one stage. With the residuals r of the stages, solve J w = Σ left_i r_i; its contribution

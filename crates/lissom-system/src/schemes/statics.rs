@@ -14,7 +14,7 @@ pub fn statics() -> Scheme {
         }],
         algorithmic: Combination::default(),
         parametrization: Parametrization::FromStart,
-        coupling: Coupling::single(Weights { velocity: 0.0, acceleration: 0.0 }),
+        coupling: Coupling::single(Weights::AT_REST),
         tableau: None,
         memory_delay: 0.0,
         order: 1,

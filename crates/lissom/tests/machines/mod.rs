@@ -6,4 +6,5 @@ mod import;
 mod mjcf;
 mod prescribed_motion;
 mod rolling;
+mod starts;
 mod to_urdf;
