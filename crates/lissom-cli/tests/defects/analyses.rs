@@ -159,8 +159,12 @@ fn a_blade_of_any_axial_stiffness_has_its_modes_in_rotation() {
 
 #[test]
 fn a_diagram_of_a_light_damped_shaft_converges_at_every_speed() {
-    let request =
-        CampbellRequest { vary: "parameters.speed=100:400:7".parse().unwrap(), count: 3, rays: vec![1] };
+    let request = CampbellRequest {
+        vary: "parameters.speed=100:400:7".parse().unwrap(),
+        count: 3,
+        shift: None,
+        rays: vec![1],
+    };
     let report = campbell(&Model::from_text("model.toml", DAMPED_ROTOR), &request)
         .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.points.len(), 7);

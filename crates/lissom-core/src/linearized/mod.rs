@@ -11,6 +11,7 @@
 
 mod arnoldi;
 mod buckling;
+mod carried_fields;
 mod carried_points;
 mod completion;
 mod corrections;

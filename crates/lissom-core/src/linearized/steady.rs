@@ -1,6 +1,6 @@
 //! Steady rotation: the positions at which a model continues to rotate without any change in the axes of its nodes.
 //!
-//! The initial velocity field of each node is fixed in space; the solution is positions at which the equations of motion are
+//! The initial velocity field of each node is fixed in space, or to the node that carries its axis; the solution is positions at which the equations of motion are
 //! satisfied with constant body twists. Newton's method with the linear model about the state, in increments relative to extrapolation:
 //!
 //! ```text
@@ -13,6 +13,7 @@ use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
 use lissom_solver::SolverKind;
 use num_complex::Complex64;
 
+use super::carried_fields::CarriedFields;
 use super::krylov::{Noise, product};
 use super::mode::Mode;
 use super::model::{LinearError, LinearModel, nothing, point, stopped};
@@ -108,8 +109,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         state = driven;
     }
     let rate = rate_of(&state);
-    let fields: Vec<Vector6> =
-        state.kinematics.nodes.iter().map(|node| node.frame.adjoint_times(&node.twist)).collect();
+    let fields = CarriedFields::new(system, &state.kinematics);
     for node in &mut state.kinematics.nodes {
         node.acceleration.fill(0.0);
     }
@@ -181,15 +181,15 @@ fn size_of(system: &System, change: &[Complex64], length: f64) -> f64 {
 }
 
 /// Moves the state by a part of a correction.
-fn correct(system: &System, state: &mut State, (part, change): (f64, &[Complex64]), fields: &[Vector6]) {
+fn correct(system: &System, state: &mut State, (part, change): (f64, &[Complex64]), fields: &CarriedFields) {
     let layout = system.layout();
-    for (node, (motion, field)) in NodeId::enumerate(state.kinematics.nodes.iter_mut().zip(fields)) {
+    for (node, motion) in NodeId::enumerate(state.kinematics.nodes.iter_mut()) {
         let rows = layout.rows_of_node(node);
         let by = |row: u32| if row == LOCKED { 0.0 } else { part * change[row as usize].re };
         let psi = Vector6::from_fn(|k, _| by(rows[k]));
         motion.frame = motion.frame * Motion::exponential(&psi);
-        motion.twist = motion.frame.adjoint_inverse_times(field);
     }
+    fields.apply(&mut state.kinematics);
     for (coordinate, motion) in CoordinateId::enumerate(&mut state.kinematics.coordinates) {
         motion.value += part * change[layout.row_of_coordinate(coordinate)].re;
     }

@@ -78,8 +78,12 @@ fn a_campbell_diagram_has_the_onset_of_whirl() {
     let bearing = "[springs.bearing]\nkind = \"bearing\"\nbase = \"ground\"\ntip = \"rotor\"\nstiffness = 8e4\ndamping = 100\n\
         k23 = \"50*speed\"\nk32 = \"-50*speed\"\n";
     let text = ROTOR.replace("[analysis]", &format!("{bearing}[analysis]"));
-    let request =
-        CampbellRequest { vary: "parameters.omega=120:132:5".parse().unwrap(), count: 4, rays: vec![1] };
+    let request = CampbellRequest {
+        vary: "parameters.omega=120:132:5".parse().unwrap(),
+        count: 4,
+        shift: None,
+        rays: vec![1],
+    };
     let found = campbell(&Model::from_text("model.toml", &text), &request).unwrap_or_else(|e| panic!("{e}"));
     for point in &found.points {
         let least = point.modes.iter().map(|own| own.mode.damping).fold(f64::INFINITY, f64::min);

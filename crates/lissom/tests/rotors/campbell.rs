@@ -11,6 +11,7 @@ fn request(path: &str, from: f64, to: f64, values: usize, count: usize, rays: &[
     CampbellRequest {
         vary: Variation { path: path.to_owned(), from, to, values },
         count,
+        shift: None,
         rays: rays.to_vec(),
     }
 }
@@ -513,4 +514,114 @@ fn a_rotor_that_turns_freely_needs_no_gravity_across_its_axis() {
         assert!((rise(point) - expected).abs() <= 1e-2 * rise(3), "{} for {expected}", rise(point));
     }
     assert!(lowest(3, 1) > lowest(0, 1));
+}
+
+/// A heavy rotor on a tower, which its thrust bends by 3 degrees: the axis of the rotation tilts with the tower.
+const ON_A_TOWER: &str = r#"
+lissom = 1
+[parameters]
+speed = 4.0
+thrust = 4e4
+[materials.steel]
+E = 2.1e11
+nu = 0.3
+density = 7850
+[sections.tower]
+shape = "tube"
+material = "steel"
+outer_radius = 0.3
+thickness = 0.02
+[beams.tower]
+section = "tower"
+from = [0, 0, 0]
+to = [0, 0, 20]
+elements = 4
+up = "x"
+[bodies.nacelle]
+mass = 1000
+inertia = [500, 900, 900]
+position = [0, 0, 20]
+[bodies.hub]
+mass = 800
+inertia = [4000, 2000, 2000]
+position = [1, 0, 20]
+[joints.foot]
+kind = "clamp"
+base = "ground"
+tip = "tower.start"
+[joints.top]
+kind = "clamp"
+base = "tower.end"
+tip = "nacelle"
+[joints.shaft]
+kind = "revolute"
+base = "nacelle"
+tip = "hub"
+axis = "x"
+at = [1, 0, 20]
+[local_loads.thrust]
+on = "hub"
+force = ["thrust", 0, 0]
+[initial.rotor]
+parts = ["hub"]
+angular_velocity = ["speed", 0, 0]
+about = [1, 0, 20]
+[initial]
+STEADY
+[outputs.nacelle]
+kind = "position"
+of = "nacelle"
+[outputs.shaft]
+kind = "relative"
+of = "shaft"
+[analysis]
+kind = "dynamics"
+end = 2
+"#;
+
+/// It stays where the steady rotation is, and has a diagram whose frequencies change little with the thrust.
+#[test]
+fn a_rotor_on_a_tower_turns_steadily_under_thrust() {
+    let steady = ON_A_TOWER.replace("STEADY", "steady_rotation = true");
+    let record = Model::from_text("model.toml", &steady).session().unwrap().run().unwrap().into_record();
+    let (along, up) = (record.column("nacelle", "x").unwrap(), record.column("nacelle", "z").unwrap());
+    assert!(along[0] > 0.5 && up[0] < 20.0, "{} {}", along[0], up[0]);
+    for (x, z) in along.iter().zip(up) {
+        assert!(
+            (x - along[0]).abs() < 1e-5 && (z - up[0]).abs() < 1e-5,
+            "{x} {z} from {} {}",
+            along[0],
+            up[0]
+        );
+    }
+    let rate = record.column("shaft", "rate").unwrap()[0];
+    assert!((rate - 4.0).abs() < 1e-9, "{rate}");
+    let text = ON_A_TOWER.replace("STEADY", "velocity = [0, 0, 0]");
+    let diagram = |thrust: &str| {
+        let text = text.replace("thrust = 4e4", thrust);
+        find(&text, &request("parameters.speed", 1.0, 4.0, 2, 4, &[1]))
+    };
+    let frequencies = |found: &CampbellReport| -> Vec<f64> {
+        found.points.iter().flat_map(|point| &point.modes).map(|own| own.mode.frequency).collect()
+    };
+    let (with, without) = (frequencies(&diagram("thrust = 4e4")), frequencies(&diagram("thrust = 0")));
+    assert_eq!(with.len(), without.len());
+    for (with, without) in with.iter().zip(&without) {
+        assert!((with - without).abs() < 0.05 * without.max(0.05), "{with} {without}");
+    }
+}
+
+/// The modes nearest to a frequency, which are the last ones of a longer list.
+#[test]
+fn a_diagram_of_the_modes_nearest_to_a_frequency() {
+    let all = find(SHAFT, &request("parameters.speed", 100.0, 200.0, 2, 8, &[1]));
+    let point = &all.points[0];
+    let high = point.modes[7].mode.frequency;
+    let near = CampbellRequest { shift: Some(high), ..request("parameters.speed", 100.0, 200.0, 2, 2, &[1]) };
+    let found = find(SHAFT, &near);
+    let nearest = found.points[0].modes.iter().map(|own| (own.mode.frequency - high).abs());
+    assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-6 * high);
+    assert!(found.points[0].modes.iter().all(|own| own.mode.frequency > 0.5 * high));
+    let wrong = CampbellRequest { shift: Some(-1.0), ..near };
+    assert!(campbell(&Model::from_text("model.toml", SHAFT), &wrong).is_err());
 }

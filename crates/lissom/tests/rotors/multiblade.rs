@@ -193,7 +193,12 @@ fn modes_of_two_blades_are_left_out_with_the_reason() {
 
 #[test]
 fn a_diagram_has_the_frequencies_at_rest() {
-    let ask = CampbellRequest { vary: "parameters.speed=2:12:6".parse().unwrap(), count: 8, rays: vec![1] };
+    let ask = CampbellRequest {
+        vary: "parameters.speed=2:12:6".parse().unwrap(),
+        count: 8,
+        shift: None,
+        rays: vec![1],
+    };
     let found = campbell(&Model::from_text("model.toml", &rotor(3, 2.0)), &ask)
         .unwrap_or_else(|error| panic!("{error}"));
     for point in &found.points {

@@ -9,6 +9,7 @@ fn find(text: &str, (from, to): (f64, f64), values: usize) -> CampbellReport {
     let request = CampbellRequest {
         vary: Variation { path: "parameters.speed".to_owned(), from, to, values },
         count: 8,
+        shift: None,
         rays: vec![1],
     };
     campbell(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))

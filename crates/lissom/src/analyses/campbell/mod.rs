@@ -42,6 +42,7 @@ const SOLUTIONS: usize = 8;
 Examples:
   lissom campbell rotor.toml --vary parameters.speed=0:200:41
   lissom campbell blade.toml --vary parameters.speed=0:2:21 --count 6 --rays 1,3,6
+  lissom campbell rotor.toml --vary parameters.speed=0:200:41 --shift 350   the modes nearest to 350 Hz
 
 Exit code: 0 success; 2 wrong model or command line; 3 no steady rotation, no modes, or coefficients that are not constant.")
 )]
@@ -52,6 +53,10 @@ pub struct CampbellRequest {
     /// Number of modes, the lowest first.
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value_t = 8, value_parser = counts(1..)))]
     pub count: usize,
+    /// Compute the modes nearest to this frequency [default: the lowest ones].
+    #[cfg_attr(feature = "clap", arg(long, value_name = "HZ", allow_negative_numbers = true))]
+    #[serde(default)]
+    pub shift: Option<f64>,
     /// Multiples of the rotor speed whose crossings with the frequencies are critical speeds.
     #[cfg_attr(feature = "clap", arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..)))]
     pub rays: Vec<u32>,
@@ -230,6 +235,10 @@ pub fn campbell(model: &Model, request: &CampbellRequest) -> Result<CampbellRepo
     if !(from.is_finite() && to.is_finite()) || from == to {
         return Err(CampbellError::Range { path: path.clone(), from, to });
     }
+    if let Some(frequency) = request.shift.filter(|frequency| !(frequency.is_finite() && *frequency >= 0.0)) {
+        let error = Box::new(ModesError::Shift(frequency));
+        return Err(CampbellError::Modes { path: path.clone(), value: from, error });
+    }
     let last = values.max(2) - 1;
     let mut search = Search { model, request, warnings: Vec::new() };
     let mut points: Vec<Point> = Vec::new();
@@ -263,7 +272,7 @@ impl Search<'_> {
         let count = self.request.count;
         let mut doubts = Vec::new();
         let find = |reached: LinearizationPoint<'_, '_>| -> Result<Option<Point>, ModesError> {
-            let options = ModeOptions { count, shift: None };
+            let options = ModeOptions { count, shift: self.request.shift };
             let found = reached.model.modes(&options)?;
             let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
             let found = found.modes;

@@ -1,5 +1,6 @@
 //! Natural modes of a model about a state: computes the state, linearises there, and reports the modes in tables.
 
+mod names;
 mod report;
 
 use lissom_core::catalogued;

@@ -16,6 +16,7 @@ use lissom_model::scene::Scene;
 use serde_json::{Value, json};
 
 use super::ModeReport;
+use super::names::names;
 use crate::analyses::interface::AnalysisReport;
 use crate::motion::{Motion, MotionRecorder};
 use crate::pictures::picture::{Picture, PictureError};
@@ -144,9 +145,11 @@ impl AnalysisReport for ModeReport {
             insert("friction_points", json!({ "sticking": points.sticking, "sliding": points.sliding }));
         }
         insert("masses", json!(self.masses));
+        let names = names(&self.shapes, &self.shares);
         let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
             json!({
                 "mode": index + 1,
+                "name": names.get(index),
                 "frequency": mode.frequency,
                 "damping": mode.damping,
                 "kind": mode.kind.name(),
@@ -183,17 +186,19 @@ impl AnalysisReport for ModeReport {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  mode   frequency [Hz]   damping ratio   {:<13}largest kinetic energies",
+            "  mode   frequency [Hz]   damping ratio   {:<13}name, largest kinetic energies",
             "kind"
         );
+        let names = names(&self.shapes, &self.shares);
         for (index, mode) in self.modes.iter().take(LISTED).enumerate() {
             let _ = writeln!(
                 text,
-                "  {:>4}   {:>14}   {:>13}   {:<13}{}",
+                "  {:>4}   {:>14}   {:>13}   {:<13}{}: {}",
                 index + 1,
                 written(mode.frequency, DIGITS),
                 written(mode.damping, 4),
                 mode.kind.name(),
+                names.get(index).map_or("", String::as_str),
                 largest(&self.shares[index])
             );
         }

@@ -1,0 +1,144 @@
+//! Names of modes: the parts that move most, how they move, and which of the modes of this kind it is, such as "1st bending of `tower`
+//! along y".
+
+use std::collections::BTreeMap;
+
+use lissom_core::linearized::NodeShape;
+use lissom_motion::Vector3;
+
+/// Parts with at least this fraction of the largest kinetic energy are named, at most so many.
+const NAMED: (f64, usize) = (0.5, 3);
+/// A rotation is the larger motion if its arc at this fraction of the part's size exceeds the displacement.
+const ARM: f64 = 0.1;
+/// A direction is along an axis if this fraction of it is.
+const ALONG: f64 = 0.9;
+
+/// Names of modes in the order of their frequencies: of each the shape at all nodes, and the share of each part in its kinetic energy.
+pub(super) fn names(shapes: &[Vec<NodeShape>], shares: &[BTreeMap<String, f64>]) -> Vec<String> {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    let named = |(shape, shares): (&Vec<NodeShape>, &BTreeMap<String, f64>)| {
+        let words = motion(shape, shares)?;
+        let count = counts.entry(words.clone()).or_default();
+        *count += 1;
+        Some(format!("{} {words}", ordinal(*count)))
+    };
+    shapes.iter().zip(shares).map(named).map(Option::unwrap_or_default).collect()
+}
+
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, last) if last != 11 => "st",
+        (2, last) if last != 12 => "nd",
+        (3, last) if last != 13 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
+}
+
+/// Which parts move, and how the one with the largest energy does; none if no part has any.
+fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>) -> Option<String> {
+    let mut parts: Vec<(&String, f64)> = shares.iter().map(|(part, share)| (part, *share)).collect();
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let (first, most) = *parts.first().filter(|(_, share)| *share > 0.0)?;
+    let listed = parts.iter().take_while(|(_, share)| *share >= NAMED.0 * most).take(NAMED.1);
+    let listed: Vec<String> = listed.map(|(part, _)| format!("`{part}`")).collect();
+    let own: Vec<&NodeShape> = shape.iter().filter(|node| is_of(&node.node, first)).collect();
+    let largest = |vector: fn(&NodeShape) -> Vector3| {
+        own.iter().map(|node| vector(node)).max_by(|a, b| a.norm().total_cmp(&b.norm()))
+    };
+    let moved = largest(|node| Vector3::from(node.displacement.map(|value| value.norm())))?;
+    let turned = largest(|node| Vector3::from(node.rotation.map(|value| value.norm())))?;
+    let place = |node: &NodeShape| Vector3::from(node.position);
+    let span = own.first().zip(own.last()).map_or_else(Vector3::zeros, |(a, b)| place(b) - place(a));
+    let size = if span.norm() > 0.0 { span.norm() } else { 1.0 };
+    let is_turning = ARM * size * turned.norm() > moved.norm();
+    let line = span.try_normalize(0.0).map(|line| line.abs());
+    let words = match line {
+        Some(line) if is_turning && along(&turned, &line) => "torsion".to_owned(),
+        Some(line) if along(&moved, &line) => "extension".to_owned(),
+        Some(_) => format!("bending along {}", axis(&moved)),
+        None if is_turning => format!("rotation about {}", axis(&turned)),
+        None => format!("translation along {}", axis(&moved)),
+    };
+    let (kind, direction) = words.split_once(' ').unwrap_or((&words, ""));
+    let direction = if direction.is_empty() { String::new() } else { format!(" {direction}") };
+    Some(format!("{kind} of {}{direction}", listed.join(", ")))
+}
+
+/// Whether a node is one of a part.
+fn is_of(node: &str, part: &str) -> bool {
+    node.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with(['@', '.']))
+}
+
+fn along(vector: &Vector3, direction: &Vector3) -> bool {
+    vector.dot(direction) > ALONG * vector.norm()
+}
+
+/// The axis along which a vector of magnitudes is, or the two or three with the largest parts of it.
+fn axis(vector: &Vector3) -> String {
+    let mut axes: Vec<(f64, &str)> = vector.iter().copied().zip(["x", "y", "z"]).collect();
+    axes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut square = 0.0;
+    let mut named: Vec<&str> = Vec::new();
+    for (size, axis) in axes {
+        square += size * size;
+        named.push(axis);
+        if square > ALONG * ALONG * vector.norm_squared() {
+            break;
+        }
+    }
+    named.sort_unstable();
+    named.join(" and ")
+}
+
+#[cfg(test)]
+mod tests {
+    use num_complex::Complex64;
+
+    use super::*;
+
+    fn node(name: &str, z: f64, displacement: [f64; 3], rotation: [f64; 3]) -> NodeShape {
+        let complex = |own: [f64; 3]| own.map(Complex64::from);
+        let (displacement, rotation) = (complex(displacement), complex(rotation));
+        NodeShape { node: name.to_owned(), position: [0.0, 0.0, z], displacement, rotation }
+    }
+
+    #[test]
+    fn modes_are_named_by_part_direction_and_number() {
+        let bent = |u: [f64; 3], r: [f64; 3]| {
+            vec![
+                node("tower.start", 0.0, [0.0; 3], [0.0; 3]),
+                node("tower.end", 10.0, u, r),
+                node("hub", 10.0, u, r),
+            ]
+        };
+        let share =
+            |tower: f64, hub: f64| BTreeMap::from([("tower".to_owned(), tower), ("hub".to_owned(), hub)]);
+        let shapes = [
+            bent([1.0, 0.1, 0.0], [0.0, 0.1, 0.0]),
+            bent([0.0, 1.0, 0.0], [0.1, 0.0, 0.0]),
+            bent([-1.0, 0.0, 0.1], [0.0, 0.1, 0.0]),
+            bent([0.7, 0.7, 0.0], [0.1, 0.1, 0.0]),
+            bent([0.0, 0.0, 0.01], [0.0, 0.0, 1.0]),
+            bent([0.0, 0.0, 1.0], [0.0, 0.0, 0.0]),
+            bent([0.0, 0.0, 0.01], [0.0, 2.0, 0.0]),
+        ];
+        let mut shares = vec![share(0.9, 0.1); 6];
+        shares[1] = share(0.5, 0.4);
+        shares.push(share(0.1, 0.9));
+        assert_eq!(
+            names(&shapes, &shares),
+            [
+                "1st bending of `tower` along x",
+                "1st bending of `tower`, `hub` along y",
+                "2nd bending of `tower` along x",
+                "1st bending of `tower` along x and y",
+                "1st torsion of `tower`",
+                "1st extension of `tower`",
+                "1st rotation of `hub` about y",
+            ]
+        );
+        let numbers: Vec<String> = [1, 2, 3, 4, 11, 12, 13, 21, 102, 113].into_iter().map(ordinal).collect();
+        assert_eq!(numbers, ["1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "102nd", "113th"]);
+    }
+}
