@@ -99,7 +99,7 @@ const ROTOR: &str = concat!(
 );
 
 /// The model that `lissom new` writes, and its instant [s].
-const FIRST_MODEL: &str = include_str!("../../crates/lissom-cli/src/commands/new_model.toml");
+const FIRST_MODEL: &str = include_str!("../../crates/lissom-cli/src/commands/templates/slider-crank.toml");
 const FIRST_INSTANT: f64 = 2.7;
 
 /// Number of natural modes in their picture.

@@ -1,32 +1,81 @@
-//! `lissom new`: a model to start from.
+//! `lissom new`: a model to start from. A template is a file in `templates/` and a line here.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use lissom::model::files;
 
 use super::outcome::{Exit, Failure};
 use super::terminal;
 
-/// The model, complete except for its title.
-const TEMPLATE: &str = include_str!("new_model.toml");
+/// A machine to start from.
+struct Template {
+    name: &'static str,
+    summary: &'static str,
+    /// The model, complete except for its title.
+    text: &'static str,
+}
+
+/// All of them, the usual one first.
+const TEMPLATES: [Template; 6] = [
+    Template {
+        name: "slider-crank",
+        summary: "a driven crank, a flexible rod and a slider",
+        text: include_str!("templates/slider-crank.toml"),
+    },
+    Template {
+        name: "vehicle",
+        summary: "a car with four sprung wheels that is driven and steered",
+        text: include_str!("templates/vehicle.toml"),
+    },
+    Template {
+        name: "robot",
+        summary: "an arm of three joints with motors and their control",
+        text: include_str!("templates/robot.toml"),
+    },
+    Template {
+        name: "crane",
+        summary: "a flexible tower crane with trolley, rope and winch",
+        text: include_str!("templates/crane.toml"),
+    },
+    Template {
+        name: "rotor",
+        summary: "a flexible shaft with an unbalanced disc, run up in bearings",
+        text: include_str!("templates/rotor.toml"),
+    },
+    Template {
+        name: "wing",
+        summary: "a flexible wing in a gust, with the aerodynamics of its sections",
+        text: include_str!("templates/wing.toml"),
+    },
+];
 
 /// Schema of model files beside the model, which its first line names for editors.
 const SCHEMA: &str = "lissom.schema.json";
 
-/// Write a commented model to start from: a slider crank with a flexible rod.
+/// Write a commented model to start from: a slider crank, or another machine by `--template`.
 ///
 /// The JSON schema of model files is written beside it, for completion in editors, unless there is one.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom new press                             writes press.toml
+  lissom new car --template vehicle            writes a car
   lissom view press.toml --open                simulates it and shows it
   lissom live press.toml --open                simulates again whenever the file is saved")]
 pub(super) struct New {
     /// Name of the model; the file is NAME.toml.
     #[arg(value_name = "NAME")]
     name: PathBuf,
+    /// The machine.
+    #[arg(long, value_name = "TEMPLATE", default_value = TEMPLATES[0].name, value_parser = names())]
+    template: String,
+}
+
+/// The names of all templates, with their summaries for `--help`.
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::from(TEMPLATES.map(|own| PossibleValue::new(own.name).help(own.summary)))
 }
 
 impl New {
@@ -46,7 +95,8 @@ impl New {
         }
         // Quoted as TOML text, because it may contain any letters.
         let title = stem.replace('\\', "\\\\").replace('"', "\\\"");
-        let text = TEMPLATE.replace("@title@", &title);
+        let template = TEMPLATES.iter().find(|own| own.name == self.template).unwrap_or(&TEMPLATES[0]);
+        let text = template.text.replace("@title@", &title);
         let write = |path: &Path, text: &str| {
             files::write(path, text.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))
         };

@@ -42,6 +42,55 @@ fn a_new_model_runs_as_it_is() {
     );
 }
 
+/// The last value of a column of a template that runs to `end` [s] without a warning.
+fn template(folder: &Folder, name: &str, end: &str, columns: &[&str]) -> Vec<f64> {
+    let made = lissom(&["new", name, "--template", name], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""), "{name}");
+    let (file, end) = (format!("{name}.toml"), format!("analysis.end={end}"));
+    let run = lissom(&["run", &file, "--no-plots", "--quiet", "--set", &end], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""), "{name}");
+    let folder = folder.path().join("out").join(name);
+    let facts = summary(&folder);
+    assert_eq!((facts["warnings"].as_array().map(Vec::len), facts["title"].as_str()), (Some(0), Some(name)));
+    let record = lissom::Record::from_csv(&fs::read_to_string(folder.join("history.csv")).unwrap()).unwrap();
+    let last = |name: &&str| {
+        let (output, component) = name.rsplit_once('.').unwrap();
+        *record.column(output, component).unwrap().last().unwrap()
+    };
+    columns.iter().map(last).collect()
+}
+
+/// Each machine does in its first second what it is made for.
+#[test]
+fn templates_run_as_they_are() {
+    let folder = Folder::new("templates");
+    let near = |found: f64, wanted: f64, part: f64| {
+        assert!((found - wanted).abs() < part * wanted.abs(), "{found} for {wanted}");
+    };
+    // 300 N m on two wheels of 0.31 m push a car of about 1400 kg.
+    let car = template(&folder, "vehicle", "0.8", &["velocity.v1", "car.z", "front_left.force"]);
+    near(car[0], 12.0 + 0.8 * 300.0 / 0.31 / 1430.0, 0.005);
+    near(car[1], 0.55, 0.02);
+    near(car[2], 3394.0, 0.1);
+    let robot = template(&folder, "robot", "3", &["base.angle", "shoulder.angle", "elbow.angle"]);
+    near(robot[0], 1.2, 1e-3);
+    near(robot[1], 0.9, 1e-3);
+    near(robot[2], -1.4, 1e-3);
+    // The weight of crane and load, 2000 + 250 + 9000 kg and the tubes.
+    let crane = template(&folder, "crane", "1", &["foot.f3", "rope.force"]);
+    let tubes = 7850.0 * std::f64::consts::PI * ((0.36 - 0.588 * 0.588) * 30.0 + (0.16 - 0.39 * 0.39) * 25.0);
+    near(crane[0], 9.81 * (11_250.0 + tubes), 1e-3);
+    near(crane[1], 9.81 * 2000.0, 1e-3);
+    let rotor = template(&folder, "rotor", "0.2", &["left.f3", "right.f3"]);
+    let shaft = 7850.0 * std::f64::consts::PI * 0.015 * 0.015 * 0.8;
+    near(rotor[0] + rotor[1], 9.81 * (8.0 + shaft), 0.05);
+    let wing = template(&folder, "wing", "0.9", &["air.f3", "tip.u3", "at_75_percent.alpha"]);
+    near(wing[0], 0.5 * 1.225 * 22.0 * 22.0 * 0.4 * 6.0 * 2.0 * std::f64::consts::PI * 0.05, 0.1);
+    assert!(wing[1] > 0.1 && wing[2] > 0.03 && wing[2] < 0.06, "{wing:?}");
+    let refused = lissom(&["new", "x", "--template", "submarine"], folder.path());
+    assert!(refused.code == 2 && refused.errors.contains("slider-crank"), "{}", refused.errors);
+}
+
 #[test]
 fn an_imported_robot_runs_as_it_is() {
     let folder = Folder::new("import");
