@@ -69,13 +69,22 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
                 );
             }
             let (mut surface, mut solids) = (Surface::default(), Vec::new());
+            let mut positioned = Vec::new();
             for entry in entries {
                 let what = if entries.len() > 1 { format!("each entry of {what}") } else { what.clone() };
                 let own = opened(reader, entry, &what, Shape::drawn_keys())?;
                 let touches = own.flag("touches")?.value;
+                positioned.push(own.has("position"));
                 let (drawn, solid) = drawn((&own, entry), &what, center)?;
                 surface.append(&drawn);
                 solids.extend(touches.then_some(solid));
+            }
+            if *center != Vector3::zeros() && positioned.contains(&true) && positioned.contains(&false) {
+                let message =
+                    format!("some solids of {what} have no `position`: they are at the centre of mass");
+                let help =
+                    "give each of them a `position`, which is measured from the body's reference point";
+                context.report(Problem::warning(node.span, message).help(help));
             }
             let surface = (!surface.triangles.is_empty()).then(|| Arc::new(surface));
             Some(Body { surface, solids })

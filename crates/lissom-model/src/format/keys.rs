@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use lissom_mechanics::ports::{PortDeclaration, PortType};
 use lissom_mechanics::registry::{DefaultValue, Parameter, ParameterType};
 
+use super::solid_kinds::SOLID_KINDS;
 pub(crate) use super::value_types::Shape;
 
 impl Shape {
@@ -118,19 +119,7 @@ impl Shape {
     /// Keys of what is drawn of a body.
     pub(crate) fn drawn_keys() -> Vec<Key> {
         let mut keys = Self::solid_keys();
-        keys[0].holds = choice(&[
-            "box",
-            "cylinder",
-            "tube",
-            "sphere",
-            "capsule",
-            "ellipsoid",
-            "plane",
-            "outline",
-            "hull",
-            "height_field",
-            "mesh",
-        ]);
+        keys[0].holds = Self::Choice(SOLID_KINDS.iter().map(|kind| kind.word).collect());
         keys.extend([
             optional(
                 "points",
@@ -164,7 +153,7 @@ impl Shape {
                 "position",
                 Self::Vector,
                 "m",
-                "body axes; default the centre of mass, of a mesh the origin",
+                "of its centre or of the origin of a mesh, from the body's reference point, body axes; default: a solid is at the centre of mass, a mesh at the reference point",
             ),
             optional("rotation", Self::Vector, "rad", "rotation vector, body axes"),
         ]);

@@ -2,6 +2,7 @@
 
 pub(crate) mod keys;
 pub(crate) mod part_tables;
+pub(crate) mod solid_kinds;
 pub(crate) mod suggest;
 pub(crate) mod synonyms;
 pub(crate) mod top_level;

@@ -6,6 +6,7 @@ use crate::document::tables::variants;
 use crate::expression::FUNCTION_NAMES;
 use crate::format::keys::{Key, of_parameter};
 use crate::format::part_tables::part_motion;
+use crate::format::solid_kinds::SOLID_KINDS;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, tops};
 use crate::format::value_types::{RustType, ValueType};
@@ -89,8 +90,22 @@ pub fn forms(registry: &Registry) -> Vec<Form> {
             });
         }
     }
+    all.extend(SOLID_KINDS.iter().map(|kind| Form {
+        heading: "[bodies.*.shape]".to_owned(),
+        table: "shapes",
+        singular: "shape",
+        about: ABOUT_SHAPES.to_owned(),
+        tag: Some("kind"),
+        word: kind.word,
+        summary: kind.summary,
+        keys: kind.all_keys().iter().map(of_key).collect(),
+    }));
     all
 }
+
+/// Description of `shape`.
+pub(crate) const ABOUT_SHAPES: &str = "Solids of bodies, point masses and the ground, by which they are drawn and touch others. `shape` is a table \
+     or a list of tables.";
 
 impl From<&Parameter> for FormKey {
     fn from(parameter: &Parameter) -> Self {

@@ -7,8 +7,10 @@ use crate::expression::FUNCTION_NAMES;
 use crate::format::keys::Key;
 use crate::format::keys::table_keys;
 use crate::format::part_tables::part_motion;
+use crate::format::solid_kinds::SOLID_KINDS;
 use crate::format::top_level::singular;
 use crate::format::top_level::{Holds, Top, Variants, tops};
+use crate::reference::forms::ABOUT_SHAPES;
 use crate::registry::{ChoiceEntry, DEFAULT_SCHEMES, KindEntry, Registry};
 
 const INTRODUCTION: &str = "\
@@ -46,6 +48,7 @@ pub fn manual(registry: &Registry) -> String {
     for top in tops() {
         of_top(&mut text, top, registry);
     }
+    shapes(&mut text);
     text
 }
 
@@ -91,6 +94,15 @@ pub fn topics() -> Vec<&'static str> {
     let tables = tops().filter(|top| !matches!(top.holds, Holds::Value(_)));
     let name = |top: &'static Top| if singular(top.name) == "entry" { top.name } else { singular(top.name) };
     tables.map(name).chain(["function"]).collect()
+}
+
+/// The kinds of solids.
+fn shapes(text: &mut String) {
+    line(text, &format!("\n## `shape`\n\n{ABOUT_SHAPES}"));
+    for kind in &SOLID_KINDS {
+        line(text, &format!("\n### `shape = {{ kind = \"{}\" }}`\n\n{}", kind.word, kind.summary));
+        keys(text, kind.all_keys().iter());
+    }
 }
 
 fn functions(text: &mut String) {
