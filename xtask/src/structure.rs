@@ -405,7 +405,7 @@ mod tests {
         ("lissom-system", 5240),
         ("lissom-core", 30_390),
         ("lissom-drawing", 1380),
-        ("lissom-model", 31_440),
+        ("lissom-model", 31_450),
         ("lissom", 24_480),
         ("lissom-cli", 4730),
         ("lissom-fmi", 660),

@@ -1,7 +1,9 @@
 //! Rigid bodies and point masses of a model file.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
+use lissom_mechanics::contact::solids::Solid;
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::entries::each;
@@ -11,6 +13,7 @@ use crate::format::keys::Shape;
 use crate::parts::body_axes;
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
+use crate::surface::Surface;
 use crate::text::report::Located;
 use crate::text::{Node, Value};
 
@@ -21,7 +24,9 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
         let (velocity, angular_velocity) = (reader.vector("velocity"), reader.vector("angular_velocity"));
         let center_of_mass = reader.vector("center_of_mass").map_or(Vector3::zeros(), |center| center.value);
         let shape = shape(reader, &center_of_mass);
-        let ((mass, inertia), shape) = (mass_and_inertia?, shape?);
+        let ((mass, inertia, solid), shape) = (mass_and_inertia?, shape?);
+        // Without a shape of its own a body looks like the solid of its inertia.
+        let surface = shape.surface.or_else(|| Some(Arc::new(Surface::of_solid(&solid?, &center_of_mass))));
         Some(Body {
             name: Located::new(name.to_owned(), reader.name),
             mass,
@@ -29,7 +34,7 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
             position: position?,
             axes: axes?,
             center_of_mass,
-            surface: shape.surface,
+            surface,
             solids: shape.solids,
             velocity,
             angular_velocity,
@@ -37,8 +42,8 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
     })
 }
 
-/// Mass and inertia about the centre of mass, as numbers or those of a solid.
-fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
+/// Mass and inertia about the centre of mass, as numbers or those of a solid, and the solid.
+fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3, Option<Solid>)> {
     let context = reader.context;
     let solid = match reader.node("inertia") {
         Some(node @ Node { value: Value::Table(_), .. }) => Some(solid(reader, node, "inertia")?),
@@ -66,7 +71,7 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
         (Some(_), None) => None,
         (None, _) => reader.inertia("inertia").map(|inertia| inertia.value),
     };
-    Some((mass?, inertia?))
+    Some((mass?, inertia?, solid))
 }
 
 /// The position `position`, the origin of the axes around it where it is not given.
