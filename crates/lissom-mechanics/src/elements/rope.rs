@@ -74,6 +74,12 @@ pub const KIND: ElementKind = ElementKind {
             "m",
             "Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up.",
         ),
+        Parameter::optional(
+            "diameter",
+            ParameterType::Positive,
+            "m",
+            "Diameter with which it is drawn; default: a thin line.",
+        ),
     ],
     ports: Ports(&[
         PortDeclaration::required(

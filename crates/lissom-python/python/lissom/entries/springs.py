@@ -155,6 +155,7 @@ class Rope(Spring):
         limits: Minimum and maximum tension; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         length: Free length of the whole rope; a function of time for a winch; default: the length at the start [m]; a function of time, or nothing.
         drum_radii: Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up [m]; a list of numbers, or nothing.
+        diameter: Diameter with which it is drawn; default: a thin line [m]; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "rope"
@@ -169,6 +170,7 @@ class Rope(Spring):
     limits: Vector | None = None
     length: Function | None = None
     drum_radii: Vector | None = None
+    diameter: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

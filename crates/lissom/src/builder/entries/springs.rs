@@ -92,6 +92,8 @@ entry! {
     length: Function = "length";
     /// Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up \[m\].
     drum_radii: Vec<f64> = "drum_radii";
+    /// Diameter with which it is drawn; default: a thin line \[m\].
+    diameter: f64 = "diameter";
 }
 
 entry! {
