@@ -20,14 +20,30 @@ export const rod = (from, to, radius, material) => {
   return mesh;
 };
 
-/** Triangles with edges between them. */
+/** Cosine of the greatest angle [36°] between triangles whose common edge is round. */
+const ROUND = 0.81;
+
+/** Triangles with edges between them, where their angle is not that of a round surface. */
 const surface = ({ points, triangles }) => {
+  const normal = new THREE.Vector3();
+  const edge = new THREE.Vector3();
+  const at = points.map((point) => new THREE.Vector3(...point));
+  const normals = triangles.map(([a, b, c]) => normal.subVectors(at[b], at[a]).cross(edge.subVectors(at[c], at[a])).normalize().clone());
+  // Files repeat the points of every triangle.
+  const keys = points.map((point) => point.join());
+  const around = new Map(keys.map((key) => [key, []]));
+  triangles.forEach((corners, k) => corners.forEach((corner) => around.get(keys[corner]).push(normals[k])));
+  const smooth = triangles.flatMap((corners, k) =>
+    corners.flatMap((corner) => {
+      normal.set(0, 0, 0);
+      for (const other of around.get(keys[corner])) if (other.dot(normals[k]) > ROUND) normal.add(other);
+      return normal.normalize().toArray();
+    }),
+  );
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(points.flat()), 3));
-  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(triangles.flat()), 1));
-  const flat = geometry.toNonIndexed();
-  flat.computeVertexNormals();
-  return flat;
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(triangles.flat().flatMap((corner) => points[corner]), 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(smooth, 3));
+  return geometry;
 };
 
 /** Something that moves with a node. */
