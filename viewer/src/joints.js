@@ -90,8 +90,8 @@ export class Symbols {
     if (isSchematic && part.axes) first.addAxes(part.axes, theme);
     if (isSchematic && part.axes && part.anchors?.[0].node === 0) first.addGround(theme);
     const material = new THREE.MeshStandardMaterial({ color: theme.pin, roughness: 0.5, metalness: 0.2 });
-    this.rods = rods.map(({ anchors }) => {
-      const mesh = rod([0, 0, 0], [0, 1, 0], 0.35 * radiusOf(0, size), material);
+    this.rods = rods.map(({ anchors, radius = 0.35 * radiusOf(0, size) }) => {
+      const mesh = rod([0, 0, 0], [0, 1, 0], radius, material);
       this.group.add(mesh);
       return { mesh, anchors };
     });

@@ -20,8 +20,8 @@ export class Labels {
     if (this.holder.hidden || !model) return;
     const taken = [];
     const names = [];
-    for (const name of model.parts.keys()) {
-      const anchor = model.isHidden(name) ? null : model.anchorOf(name);
+    for (const [key, { name }] of model.parts) {
+      const anchor = model.isHidden(key) ? null : model.anchorOf(key);
       if (!anchor) continue;
       const [x, y] = this.stage.pixel(model.kinematics.point(anchor));
       const box = [x, y, x + 7 * name.length, y + HEIGHT];

@@ -47,7 +47,9 @@ export class ModelView {
     this.stage = stage;
     this.group = new THREE.Group();
     this.theme = { ...theme, up: stage.up };
+    /** By their keys: the name, or table and name where another table has the name as well. */
     this.parts = new Map();
+    this.keys = new Map();
     this.moving = [];
     this.byKind = { joints: [], springs: [], loads: [] };
     this.selected = null;
@@ -64,12 +66,12 @@ export class ModelView {
     for (const beam of scene.beams) {
       const own = next();
       const drawn = new BeamMesh(beam, kinematics, size, own);
-      this.add(beam.name, drawn, drawn.mesh, own, { kind: "beam", part: beam });
+      this.add("parts", drawn, drawn.mesh, own, { kind: "beam", part: beam });
     }
     for (const body of scene.bodies) {
       const own = next();
       const drawn = new BodyMesh(body, this.attachedTo(body), kinematics, size, own, choices.bodyShape);
-      this.add(body.name, drawn, drawn.group, own, { kind: "body", part: body });
+      this.add("parts", drawn, drawn.group, own, { kind: "body", part: body });
     }
     const heaviest = Math.max(...scene.point_masses.map((mass) => mass.mass), 0);
     for (const mass of scene.point_masses) {
@@ -77,49 +79,53 @@ export class ModelView {
       const own = isGround ? theme.ground : next();
       const shaped = { ...mass, shape: { center: [0, 0, 0] } };
       const drawn = mass.surface ? new BodyMesh(shaped, [], kinematics, size, own) : new PointMassMesh(mass, heaviest, kinematics, size, own);
-      this.add(mass.name, drawn, drawn.group, own, { kind: isGround ? "ground" : "point mass", part: mass });
+      this.add("parts", drawn, drawn.group, own, { kind: isGround ? "ground" : "point mass", part: mass });
     }
     this.buildConnections(size);
   }
 
   buildConnections(size) {
     const { scene, kinematics, theme } = this;
-    const of = (list, name) => list.filter((each) => each.name === name);
+    /** Those of a table; scenes of earlier versions name none. */
+    const of = (list, name, table) => list.filter((each) => each.name === name && (each.table ?? table) === table);
     /** By its symbols, if it has any. */
-    const bySymbols = (part, kind, list) => {
-      const own = { symbols: of(scene.symbols, part.name), rods: of(scene.rods, part.name) };
+    const bySymbols = (part, kind, table, list = table) => {
+      const own = { symbols: of(scene.symbols, part.name, table), rods: of(scene.rods, part.name, table) };
       if (own.symbols.length === 0) return false;
       const drawn = new Symbols(part, own, kinematics, size, theme);
-      this.add(part.name, drawn, drawn.group, null, { kind, part });
+      this.add(table, drawn, drawn.group, null, { kind, part });
       this.byKind[list].push(drawn.group);
       return true;
     };
     for (const joint of scene.joints) {
       const kind = joint.anchors ? `${spaced(joint.kind)} joint` : spaced(joint.kind);
-      if (!bySymbols(joint, kind, "joints")) this.parts.set(joint.name, { kind, part: joint });
+      const table = joint.kind === "superelement" ? "superelements" : "joints";
+      if (!bySymbols(joint, kind, table, "joints")) this.register(table, { kind, part: joint });
     }
     for (const spring of scene.springs) {
-      const kind = /friction|stop|bushing/.test(spring.kind) ? spaced(spring.kind) : `${spring.kind} spring`;
+      const kind = /friction|stop|bushing|rope/.test(spring.kind) ? spaced(spring.kind) : `${spring.kind} spring`;
       if (bySymbols(spring, kind, "springs")) continue;
       if (!spring.anchors) {
-        this.parts.set(spring.name, { kind, part: spring });
+        this.register("springs", { kind, part: spring });
         continue;
       }
       const drawn = new (spring.cable === undefined ? SpringMesh : CableMesh)(spring, kinematics, size, theme);
-      this.add(spring.name, drawn, drawn.mesh, null, { kind, part: spring });
+      this.add("springs", drawn, drawn.mesh, null, { kind, part: spring });
       this.byKind.springs.push(drawn.mesh);
     }
     const span = [scene.start, scene.end];
     for (const load of scene.loads) {
       if (bySymbols(load, spaced(load.kind), "loads")) continue;
       const drawn = new LoadArrow(load, kinematics, size, theme, span);
-      this.add(load.name, drawn, drawn.group, null, { kind: load.kind, part: load });
+      const table = load.kind.endsWith("local_load") ? "local_loads" : "loads";
+      this.add(table, drawn, drawn.group, null, { kind: spaced(load.kind), part: load });
       this.byKind.loads.push(drawn.group);
     }
     // Loads of coordinates are in no list of their own.
     const known = new Set([...scene.joints, ...scene.springs, ...scene.loads].map((each) => each.name));
-    for (const name of new Set(scene.symbols.map((symbol) => symbol.name))) {
-      if (!known.has(name)) bySymbols({ name }, "load of a joint", "loads");
+    for (const { name, table } of scene.symbols) {
+      if (table ? !this.keys.has(`${table} ${name}`) : !known.has(name)) bySymbols({ name }, "load of a joint", table ?? "loads", "loads");
+      known.add(name);
     }
     for (const load of scene.beam_loads) {
       const drawn = new BeamLoad(load, kinematics, size, theme, span);
@@ -129,10 +135,25 @@ export class ModelView {
     }
   }
 
-  add(name, drawn, object, own, facts) {
-    this.parts.set(name, { ...facts, drawn, object, own });
+  /** Lists a part of a table, and returns its key. */
+  register(table, facts) {
+    const { name } = facts.part;
+    const key = this.parts.has(name) ? `${table}.${name}` : name;
+    this.keys.set(`${table} ${name}`, key);
+    this.parts.set(key, { name, ...facts });
+    return key;
+  }
+
+  add(table, drawn, object, own, facts) {
+    const key = this.register(table, { ...facts, drawn, object, own });
+    object.traverse((child) => (child.userData.part = key));
     this.moving.push(drawn);
     this.group.add(object);
+  }
+
+  /** The key of the part to which an output belongs. */
+  keyOf({ of, table }) {
+    return this.keys.get(`${table} ${of}`) ?? of;
   }
 
   /** Points of a body where joints, springs, loads and outputs are. */
@@ -294,7 +315,7 @@ export class ModelView {
   /** The part that a diagnostic names: itself, the one that contains a node or coordinate, or the one of an output. */
   partOf(name) {
     const output = this.scene.outputs.find((each) => each.name === name);
-    for (let part = output?.of ?? name; part; part = part.slice(0, Math.max(part.search(/[.@][^.@]*$/), 0))) {
+    for (let part = output ? this.keyOf(output) : name; part; part = part.slice(0, Math.max(part.search(/[.@][^.@]*$/), 0))) {
       if (this.parts.has(part)) return part;
     }
     return null;
@@ -324,7 +345,7 @@ export class ModelView {
     if (part.node !== undefined) return { node: part.node, position: part.shape?.center ?? [0, 0, 0] };
     if (part.anchor) return part.anchor;
     if (part.anchors) return part.anchors[1];
-    return drawn?.anchor ?? (part.joint ? this.anchorOf(part.joint) : null);
+    return drawn?.anchor ?? (part.joint ? this.anchorOf(this.keyOf({ of: part.joint, table: "joints" })) : null);
   }
 
   /** Draws the paths of points. */

@@ -53,11 +53,11 @@ export class Panel {
   list(model) {
     this.model = model;
     const items = model
-      ? [...model.parts].map(([name, { kind, own }]) => {
+      ? [...model.parts].map(([key, { name, kind, own }]) => {
           const dot = element("i");
           dot.style.background = own ?? "var(--faint)";
           const item = element("li", { tabIndex: 0 }, dot, element("b", { textContent: name }), element("span", { textContent: kind }));
-          item.dataset.name = name;
+          item.dataset.name = key;
           return item;
         })
       : [];
@@ -98,7 +98,7 @@ export class Panel {
         });
       }
     }
-    const heading = element("h2", { textContent: name }, element("span", { textContent: kind }));
+    const heading = element("h2", { textContent: known.name }, element("span", { textContent: kind }));
     this.selection.replaceChildren(heading, ...(known.object ? [this.switches(name, kind)] : []), table);
     this.update();
   }
@@ -116,7 +116,7 @@ export class Panel {
 
   /** Names of the outputs of a part. */
   outputsOf(name) {
-    return this.model.scene.outputs.filter((output) => output.of === name).map((output) => output.name);
+    return this.model.scene.outputs.filter((output) => this.model.keyOf(output) === name).map((output) => output.name);
   }
 
   update() {

@@ -1,4 +1,5 @@
-// Forces as arrows: reactions of joints and of contacts on the tip, in global axes, and forces of springs, as recorded in the table.
+// Forces as arrows: reactions of joints and of contacts on the tip, in global axes, forces of springs and resultants of local loads, as
+// recorded in the table.
 
 import * as THREE from "three";
 
@@ -25,8 +26,9 @@ const contactPoint = (point, force, moment, base, normal) => {
 };
 
 export class Reactions {
-  /** Arrows for those outputs of `scene` that are forces with columns in the table. */
-  constructor(scene, history, kinematics, size, colour) {
+  /** Arrows for those outputs of a model that are forces with columns in the table. */
+  constructor(model, history, kinematics, size, colour) {
+    const { scene } = model;
     [this.history, this.kinematics] = [history, kinematics];
     this.group = new THREE.Group();
     // Within wheels and beams arrows would be hidden.
@@ -38,15 +40,20 @@ export class Reactions {
       reaction: (output) => this.ofJoint(output, scene, columnsOf),
       spring: (output) => this.ofSpring(output, scene, columnsOf),
       contact_force: (output) => this.ofContact(output, columnsOf),
+      local_load: (output) => this.ofLocalLoad(output, scene, columnsOf),
     };
-    this.arrows = scene.outputs.map((output) => kinds[output.kind]?.(output)).filter((arrow) => arrow?.columns.every(Boolean));
+    const arrowOf = (output) => {
+      const arrow = kinds[output.kind]?.(output);
+      return arrow && { ...arrow, of: output.of, key: model.keyOf(output) };
+    };
+    this.arrows = scene.outputs.map(arrowOf).filter((arrow) => arrow?.columns.every(Boolean));
     for (const arrow of this.arrows) {
       arrow.group = new THREE.Group();
       arrow.shaft = new THREE.Mesh(new THREE.CylinderGeometry(r, r, 1, 10), this.material);
       arrow.tip = new THREE.Mesh(new THREE.ConeGeometry(2.9 * r, this.head, 16), this.material);
       arrow.group.add(arrow.shaft, arrow.tip);
       for (const mesh of arrow.group.children) {
-        mesh.userData.part = arrow.of;
+        mesh.userData.part = arrow.key;
         mesh.renderOrder = 1;
       }
       this.group.add(arrow.group);
@@ -70,20 +77,38 @@ export class Reactions {
     const force = (row) => new THREE.Vector3(...forces.map(({ values }) => values[row]));
     const at = () => new THREE.Vector3(...this.kinematics.point(tip));
     const normal = joint.axes[NORMALS[joint.kind]];
-    if (!normal) return { of, columns: forces, count: 3, force, at };
+    if (!normal) return { columns: forces, count: 3, force, at };
     const moments = columnsOf(name, ["m1", "m2", "m3"]);
     const moment = (row) => new THREE.Vector3(...moments.map(({ values }) => values[row]));
     // Moments are about the origin of the node that carries the wheel.
     const centre = () => new THREE.Vector3(...this.kinematics.point({ node: tip.node, position: [0, 0, 0] }));
     const contact = (row) => contactPoint(centre(), force(row), moment(row), new THREE.Vector3(...this.kinematics.point(base)), carried(this.kinematics, base, normal));
-    return { of, columns: [...forces, ...moments], count: 3, force, at: contact };
+    return { columns: [...forces, ...moments], count: 3, force, at: contact };
   }
 
   /** The force of a contact on its tip, at the centre of the normal forces. */
-  ofContact({ name, of }, columnsOf) {
+  ofContact({ name }, columnsOf) {
     const columns = columnsOf(name, ["f1", "f2", "f3", "x1", "x2", "x3"]);
     const vector = (first, row) => new THREE.Vector3(...columns.slice(first, first + 3).map(({ values }) => values[row]));
-    return { of, columns, count: 3, force: (row) => vector(0, row), at: (row) => vector(3, row) };
+    return { columns, count: 3, force: (row) => vector(0, row), at: (row) => vector(3, row) };
+  }
+
+  /** The resultant of a local load: at its node, or at that of its beam which is nearest to the line of action. */
+  ofLocalLoad({ name, of }, scene, columnsOf) {
+    const load = scene.loads.find((each) => each.name === of && each.kind.endsWith("local_load"));
+    if (!load) return null;
+    const beam = load.kind === "distributed_local_load" && scene.beams.find((each) => each.name === load.part);
+    const anchors = beam ? beam.nodes.map((node) => ({ node, position: [0, 0, 0] })) : [load.anchor];
+    const columns = columnsOf(name, ["f1", "f2", "f3", "m1", "m2", "m3"]);
+    const vector = (first, row) => new THREE.Vector3(...columns.slice(first, first + 3).map(({ values }) => values[row]));
+    const at = (row) => {
+      const [force, moment] = [vector(0, row), vector(3, row)];
+      // The moment is about the origin; its part along the force is the same about all points.
+      const apart = (point) => moment.clone().sub(point.clone().cross(force)).length();
+      const points = anchors.map((anchor) => new THREE.Vector3(...this.kinematics.point(anchor)));
+      return points.reduce((best, point) => (apart(point) < apart(best) ? point : best));
+    };
+    return { columns, count: 3, force: (row) => vector(0, row), at };
   }
 
   /** The force of a spring on its tip: along the line between its ends, or along the axis of the joint on which it acts. */
@@ -95,11 +120,11 @@ export class Reactions {
     const point = (anchor) => new THREE.Vector3(...this.kinematics.point(anchor));
     if (spring?.anchors && spring.kind === "point") {
       const [base, tip] = spring.anchors;
-      return { of, columns, count: 1, at: () => point(tip), force: (row) => point(base).sub(point(tip)).normalize().multiplyScalar(tension(row)) };
+      return { columns, count: 1, at: () => point(tip), force: (row) => point(base).sub(point(tip)).normalize().multiplyScalar(tension(row)) };
     }
     if (!joint?.anchors || joint.kind !== "prismatic") return null;
     const [base, tip] = joint.anchors;
-    return { of, columns, count: 1, at: () => point(tip), force: (row) => carried(this.kinematics, base, joint.axes[0]).multiplyScalar(-tension(row)) };
+    return { columns, count: 1, at: () => point(tip), force: (row) => carried(this.kinematics, base, joint.axes[0]).multiplyScalar(-tension(row)) };
   }
 
   /** Shows the forces of a row of the table. */

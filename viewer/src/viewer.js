@@ -264,7 +264,7 @@ export class Viewer {
       this.stage.surround(this.model.points(), this.theme);
       this.stage.grid.visible = $("grid").checked;
       for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
-      this.reactions = new Reactions(this.result.scene, this.history, this.kinematics, this.stage.size, this.theme.load);
+      this.reactions = new Reactions(this.model, this.history, this.kinematics, this.stage.size, this.theme.load);
       this.model.group.add(this.reactions.group);
       this.showReactions(this.choices.reactions);
       for (const [name, style] of this.choices.styles) this.model.style(name, style);

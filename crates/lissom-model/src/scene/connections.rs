@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::places::{Anchor, Places, part_of};
 use super::symbols::attached;
-use crate::document::{Component, Document, NodeLocation};
+use crate::document::{Component, Document, LocalLoadEntry, NodeLocation};
 
 /// Instants at which the size of a load is sampled, less one.
 const SAMPLES: u32 = 240;
@@ -13,6 +13,11 @@ const SAMPLES: u32 = 240;
 const FEW_SAMPLES: u32 = 60;
 /// Most positions along a beam at which a force per length is sampled.
 const MAX_PLACES: usize = 13;
+
+/// Kind of a load of the local motion on a node.
+pub const LOCAL_LOAD: &str = "local_load";
+/// The same along a beam.
+pub const DISTRIBUTED_LOCAL_LOAD: &str = "distributed_local_load";
 
 /// A joint, or a drive of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,7 +151,32 @@ pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
             scale,
         })
     };
-    document.loads.iter().filter_map(drawn).collect()
+    document.loads.iter().filter_map(drawn).chain(local_loads(document, places)).collect()
+}
+
+/// Loads of the local motion at their node, or in the middle of their beam; how large they are depends on the motion.
+fn local_loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
+    let drawn = |load: &LocalLoadEntry| {
+        let anchor = match &load.beam {
+            Some(beam) => {
+                let line = places.of.names.lines.get(beam)?;
+                let middle = line.nodes.len() / 2;
+                Anchor { node: line.nodes[middle], position: line.offsets[middle].position.into() }
+            }
+            None => places.observed(&load.node.value, load.at.as_ref())?,
+        };
+        let kind = if load.beam.is_some() { DISTRIBUTED_LOCAL_LOAD } else { LOCAL_LOAD };
+        Some(Load {
+            name: load.name.value.clone(),
+            kind: kind.to_owned(),
+            part: part_of(&load.node.value).to_owned(),
+            anchor,
+            vector: None,
+            follower: !load.is_global,
+            scale: Vec::new(),
+        })
+    };
+    document.local_loads.iter().filter_map(drawn).collect()
 }
 
 pub(super) fn beam_loads(document: &Document, places: &Places<'_>) -> Vec<BeamLoad> {

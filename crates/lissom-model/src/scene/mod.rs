@@ -20,14 +20,16 @@ use lissom_mechanics::kinematics::{GROUND, NodeId};
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::document::Document;
+use crate::document::{Component, Document};
 use crate::outputs::entry::{OutputSource, ReactionAxes};
+use crate::reading::node_reference::NodeReference;
+use crate::text::report::Located;
 
 pub use crate::sections::Outline;
-pub use connections::{BeamLoad, Joint, Load, Spring};
+pub use connections::{BeamLoad, DISTRIBUTED_LOCAL_LOAD, Joint, LOCAL_LOAD, Load, Spring};
 pub use parts::{Beam, Body, PointMass, Station};
 pub use path_values::PathValues;
-pub use places::{Anchor, Placed};
+pub use places::{Anchor, Placed, Table};
 use places::{Places, part_of};
 pub use shapes::InertiaBox;
 pub use solids::{Form, Solid, Tone};
@@ -98,6 +100,9 @@ pub struct Output {
     pub kind: String,
     /// The part or joint it belongs to; none for the whole model.
     pub of: Option<String>,
+    /// Table of that part, if it is drawn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<Table>,
     /// The point that is observed, if it is carried by a node.
     pub point: Option<Anchor>,
     /// Whether it is a reaction with components along the global axes.
@@ -132,7 +137,7 @@ impl Scene {
             beam_loads: connections::beam_loads(document, &places),
             symbols,
             rods,
-            outputs: document.outputs.iter().map(|output| observed(&places, output)).collect(),
+            outputs: document.outputs.iter().map(|output| observed(document, &places, output)).collect(),
         }
     }
 
@@ -182,22 +187,33 @@ impl Scene {
 }
 
 /// An output with its part, and the point that it observes.
-fn observed(places: &Places<'_>, output: &crate::outputs::entry::Output) -> Output {
-    let (of, point) = match &output.source {
-        OutputSource::Model | OutputSource::Expression(_) => (None, None),
-        OutputSource::Joint(name)
-        | OutputSource::Spring(name)
-        | OutputSource::Contact(name)
-        | OutputSource::LocalLoad(name)
-        | OutputSource::Actor(name)
-        | OutputSource::Beam(name)
-        | OutputSource::Superelement(name)
-        | OutputSource::Signal(name) => (Some(name.value.clone()), None),
+fn observed(document: &Document, places: &Places<'_>, output: &crate::outputs::entry::Output) -> Output {
+    let is_in = |list: &[Component], name: &str| list.iter().any(|component| component.name.value == name);
+    let table_of_actor = |name: &str| match name {
+        name if is_in(&document.springs, name) => Table::Springs,
+        name if is_in(&document.loads, name) => Table::Loads,
+        _ => Table::Joints,
+    };
+    let named = |name: &Located<String>, table| (Some(name.value.clone()), table, None);
+    let (of, table, point) = match &output.source {
+        OutputSource::Model | OutputSource::Expression(_) => (None, None, None),
+        OutputSource::Joint(name) => named(name, Some(Table::Joints)),
+        OutputSource::Spring(name) => named(name, Some(Table::Springs)),
+        OutputSource::LocalLoad(name) => named(name, Some(Table::LocalLoads)),
+        OutputSource::Actor(name) => named(name, Some(table_of_actor(&name.value))),
+        OutputSource::Beam(name) => named(name, Some(Table::Parts)),
+        OutputSource::Superelement(name) => named(name, Some(Table::Superelements)),
+        OutputSource::Contact(name) | OutputSource::Signal(name) => named(name, None),
         OutputSource::Node { node, point } => {
-            (Some(part_of(&node.value).to_owned()), places.observed(&node.value, point.as_ref()))
+            let table = match node.value {
+                NodeReference::Interface { .. } => Table::Superelements,
+                _ => Table::Parts,
+            };
+            let of = part_of(&node.value).to_owned();
+            (Some(of), Some(table), places.observed(&node.value, point.as_ref()))
         }
     };
     let kind = output.kind.name().to_owned();
     let is_global = kind == "reaction" && output.axes == ReactionAxes::Ground;
-    Output { name: output.name.value.clone(), kind, of, point, is_global }
+    Output { name: output.name.value.clone(), kind, of, table, point, is_global }
 }

@@ -17,6 +17,24 @@ pub struct Anchor {
     pub position: [f64; 3],
 }
 
+/// Table of the model file in which a part is: names are unique within a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Table {
+    /// Bodies, point masses and beams, which have names in common.
+    Parts,
+    /// Joints and drives.
+    Joints,
+    /// Springs.
+    Springs,
+    /// Loads.
+    Loads,
+    /// Loads of the local motion.
+    LocalLoads,
+    /// Superelements.
+    Superelements,
+}
+
 /// Parts of a model among its nodes, at their start.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {

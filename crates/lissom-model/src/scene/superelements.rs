@@ -3,7 +3,7 @@
 use lissom_motion::Vector3;
 
 use super::connections::Joint;
-use super::places::{Anchor, Places};
+use super::places::{Anchor, Places, Table};
 use super::solids::{Axes, Tone};
 use super::symbols::{Rod, Symbol};
 use crate::document::Document;
@@ -12,6 +12,7 @@ use crate::document::Document;
 pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Joint>, Vec<Symbol>, Vec<Rod>) {
     let (mut joints, mut symbols, mut rods) = (Vec::new(), Vec::new(), Vec::new());
     let axes = Axes::of(&Vector3::x(), None);
+    let table = Some(Table::Superelements);
     for element in &document.superelements {
         let name = &element.name.value;
         let Some(nodes) = places.of.names.superelements.get(name) else { continue };
@@ -31,9 +32,17 @@ pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Jo
             } else {
                 axes.ball(0.5, [0.0; 3], Tone::Light)
             };
-            symbols.push(Symbol { name: name.clone(), anchor, around: 0.0, unit: None, solids: vec![solid] });
+            symbols.push(Symbol {
+                name: name.clone(),
+                table,
+                anchor,
+                around: 0.0,
+                unit: None,
+                solids: vec![solid],
+            });
             if !is_floating {
-                rods.push(Rod { name: name.clone(), anchors: [anchors[element.floating], anchor] });
+                let anchors = [anchors[element.floating], anchor];
+                rods.push(Rod { name: name.clone(), table, anchors, radius: None });
             }
         }
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dimensions;
 use super::kinds::{Drawn, drawn};
-use super::places::{Anchor, Places, part_of};
+use super::places::{Anchor, Places, Table, part_of};
 use super::solids::{Axes, Solid};
 use crate::document::{Attachment, Component, Document, NodeLocation};
 use crate::reading::node_reference::NodeReference;
@@ -18,6 +18,9 @@ use lissom_mechanics::kinematics::{GROUND, NodeId};
 pub struct Symbol {
     /// Name of the joint, spring or load.
     pub name: String,
+    /// Its table; none in scenes of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<Table>,
     /// Where it is.
     pub anchor: Anchor,
     /// Half the thickness [m] of the thickest beam that ends there, which a symbol must not hide in.
@@ -32,17 +35,28 @@ pub struct Symbol {
 /// A straight rod between two positions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rod {
-    /// Name of the joint.
+    /// Name of the joint, spring or load.
     pub name: String,
+    /// Its table; none in scenes of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<Table>,
     /// Its ends.
     pub anchors: [Anchor; 2],
+    /// Its radius [m]; none for those whose thickness depends on the picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
 }
 
 /// Symbols and rods of all components.
 pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>, Vec<Rod>) {
     let (mut symbols, mut rods) = (Vec::new(), Vec::new());
-    let all = document.joints.iter().chain(&document.springs).chain(&document.loads);
-    for component in all {
+    let tables = [
+        (Table::Joints, &document.joints),
+        (Table::Springs, &document.springs),
+        (Table::Loads, &document.loads),
+    ];
+    let all = tables.into_iter().flat_map(|(table, list)| list.iter().map(move |each| (Some(table), each)));
+    for (table, component) in all {
         let Some(kind @ (Drawn::Solids(solids) | Drawn::WithRod(solids))) = drawn(&component.kind.value)
         else {
             continue;
@@ -52,6 +66,7 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
         let is_symbol = dimensioned.is_empty() || !dimensions::replace_symbol(component);
         symbols.extend(dimensioned.into_iter().map(|(anchor, solids)| Symbol {
             name: component.name.value.clone(),
+            table,
             anchor,
             around: 0.0,
             unit: Some(1.0),
@@ -70,6 +85,7 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
             if is_symbol && !solids.is_empty() {
                 symbols.push(Symbol {
                     name: component.name.value.clone(),
+                    table,
                     anchor: *anchor,
                     around: thickness(document, places, anchor.node),
                     unit: None,
@@ -78,10 +94,13 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
             }
         }
         if matches!(kind, Drawn::WithRod(_)) {
-            rods.extend(
-                ends.windows(2)
-                    .map(|pair| Rod { name: component.name.value.clone(), anchors: [pair[0].0, pair[1].0] }),
-            );
+            let radius = component.parameters.number("diameter").ok().map(|diameter| 0.5 * diameter);
+            rods.extend(ends.windows(2).map(|pair| Rod {
+                name: component.name.value.clone(),
+                table,
+                anchors: [pair[0].0, pair[1].0],
+                radius,
+            }));
         }
     }
     (symbols, rods)

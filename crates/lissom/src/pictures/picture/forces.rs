@@ -2,7 +2,7 @@
 
 use lissom_core::kinematics::NodeId;
 use lissom_model::output::Record;
-use lissom_model::scene::{Anchor, Output, Scene};
+use lissom_model::scene::{Anchor, DISTRIBUTED_LOCAL_LOAD, LOCAL_LOAD, Output, Scene};
 use lissom_motion::{Motion as Pose, Vector3};
 
 /// Forces along the surface of contact, relative to their size: the line of action does not meet it.
@@ -25,7 +25,7 @@ struct Force {
 }
 
 /// Where and in which direction a force acts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Effect {
     /// At a position, with components in global axes.
     At(Anchor),
@@ -34,6 +34,8 @@ enum Effect {
     /// Where the line of action meets a plane through a position with this normal; moments follow the components. They are about
     /// the origin of the node.
     Contact { node: NodeId, base: Anchor, normal: Vector3 },
+    /// At that of these positions which is nearest to the line of action; moments about the origin follow the components.
+    Nearest(Vec<Anchor>),
     /// From the tip to the base.
     Between([Anchor; 2]),
     /// At the tip, against an axis of the base.
@@ -83,9 +85,23 @@ impl RecordedForces {
             };
             Some(Force { effect, columns: columns(output, &["force"])? })
         };
+        let local_load = |output: &Output| {
+            let load = scene
+                .loads
+                .iter()
+                .find(|load| Some(&load.name) == output.of.as_ref() && load.kind.ends_with(LOCAL_LOAD))?;
+            let beam = scene.beams.iter().find(|beam| beam.name == load.part);
+            let anchors = match beam.filter(|_| load.kind == DISTRIBUTED_LOCAL_LOAD) {
+                Some(beam) => beam.nodes.iter().map(|&node| Anchor { node, position: [0.0; 3] }).collect(),
+                None => vec![load.anchor],
+            };
+            let columns = columns(output, &["f1", "f2", "f3", "m1", "m2", "m3"])?;
+            Some(Force { effect: Effect::Nearest(anchors), columns })
+        };
         let force = |output: &Output| match output.kind.as_str() {
             "reaction" if output.is_global => reaction(output),
             "spring" => spring(output),
+            "local_load" => local_load(output),
             "contact_force" => {
                 let components = ["f1", "f2", "f3", "x1", "x2", "x3"];
                 Some(Force { effect: Effect::Placed, columns: columns(output, &components)? })
@@ -142,6 +158,13 @@ impl Force {
                 }
                 let on_line = centre + force.cross(&moment) / force.norm_squared();
                 (on_line + force * ((place(base) - on_line).dot(&normal) / slope), force)
+            }
+            Effect::Nearest(anchors) => {
+                let (force, moment) = (self.vector(0, row), self.vector(3, row));
+                // The part of the moment along the force is the same about all positions.
+                let apart = |at: &Vector3| (moment - at.cross(&force)).norm();
+                let nearest = anchors.iter().map(place).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+                (nearest?, force)
             }
             Effect::Between([base, tip]) => {
                 let (base, tip) = (place(base), place(tip));
