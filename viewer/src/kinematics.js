@@ -222,26 +222,40 @@ export class Kinematics {
     return out;
   }
 
-  /** Least and greatest places of all nodes but the ground over all frames. */
-  bounds() {
+  /**
+   * Least and greatest places of all nodes but the ground over all frames, with `fixed` places on the ground, and the size of the model: that
+   * of its parts at one instant, without their travel. Fixed places count at the start.
+   */
+  bounds(fixed) {
     const { count, motion } = this;
-    const low = [Infinity, Infinity, Infinity];
-    const high = [-Infinity, -Infinity, -Infinity];
+    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    const [least, most] = [[...low], [...high]];
+    let size = 0;
     const m = this.mode || this.frames.some((frame) => frame !== 0) ? 1 : this.magnification;
     const stride = Math.max(1, Math.floor((motion.frames * count) / 400000));
     for (let frame = 0; frame < motion.frames; frame += stride) {
+      least.fill(Infinity);
+      most.fill(-Infinity);
+      const include = (place, k) => {
+        least[k] = Math.min(least[k], place);
+        most[k] = Math.max(most[k], place);
+      };
+      if (frame === 0) for (const place of fixed) place.forEach(include);
       for (let node = count > 1 ? 1 : 0; node < count; node++) {
         for (let k = 0; k < 3; k++) {
           const shift = motion.displacements[3 * (frame * count + node) + k];
-          const place = motion.reference[7 * node + k] + m * shift;
-          low[k] = Math.min(low[k], place);
-          high[k] = Math.max(high[k], place);
+          include(motion.reference[7 * node + k] + m * shift, k);
         }
+      }
+      size = Math.max(size, Math.hypot(...most.map((x, k) => x - least[k])));
+      for (let k = 0; k < 3; k++) {
+        low[k] = Math.min(low[k], least[k]);
+        high[k] = Math.max(high[k], most[k]);
       }
     }
     // A mode goes a twelfth of the model beyond its state.
     const room = this.mode ? Math.hypot(...high.map((x, k) => x - low[k])) / 12 : 0;
-    return { low: low.map((x) => x - room), high: high.map((x) => x + room) };
+    return { low: low.map((x) => x - room), high: high.map((x) => x + room), size };
   }
 
   /** Whether a node turns by more than this about another axis than the one of this number, as wheels and shafts do in a plane. */

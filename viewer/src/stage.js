@@ -43,6 +43,7 @@ export class Stage {
     this.camera = this.perspective;
     this.centre = new THREE.Vector3();
     this.size = 1;
+    this.extent = 1;
     this.filled = FILLED;
     /** Points of the drawn geometry over the motion, one after the other. */
     this.points = new Float32Array();
@@ -90,8 +91,8 @@ export class Stage {
     const half = this.camera.position.distanceTo(this.controls.target) * Math.tan(HALF_ANGLE);
     const o = this.orthographic;
     [o.left, o.right, o.top, o.bottom] = [(-half * width) / height, (half * width) / height, half, -half];
-    o.near = -20 * this.size;
-    o.far = 40 * this.size;
+    o.near = -20 * this.extent;
+    o.far = 40 * this.extent;
     o.updateProjectionMatrix();
   }
 
@@ -114,9 +115,10 @@ export class Stage {
     this.changed();
   }
 
-  /** Sets the size of the model from two corners, by which symbols are drawn, and the upward direction. */
-  measure({ low, high }, up) {
-    this.size = Math.max(Math.hypot(...high.map((x, k) => x - low[k])), 1e-9);
+  /** Sets the size of the model, by which symbols are drawn, its extent with its travel from two corners, and the upward direction. */
+  measure({ low, high, size }, up) {
+    this.size = Math.max(size, 1e-9);
+    this.extent = Math.max(Math.hypot(...high.map((x, k) => x - low[k])), this.size);
     this.up.copy(up);
   }
 
@@ -129,7 +131,7 @@ export class Stage {
     [this.low, this.high] = [box.min, box.max];
     box.getCenter(this.centre);
     this.perspective.near = this.size / 500;
-    this.perspective.far = this.size * 60;
+    this.perspective.far = this.extent * 60;
     this.perspective.updateProjectionMatrix();
     this.dress(theme);
   }
@@ -159,9 +161,9 @@ export class Stage {
       this.scene.remove(thing);
       thing.geometry.dispose();
     }
-    const cell = 10 ** Math.floor(Math.log10(this.size / 2));
-    const step = this.size / cell > 12 ? 2 * cell : cell;
-    const cells = 2 * Math.ceil((0.7 * this.size) / step);
+    const cell = 10 ** Math.floor(Math.log10(this.extent / 2));
+    const step = this.extent / cell > 12 ? 2 * cell : cell;
+    const cells = 2 * Math.ceil((0.7 * this.extent) / step);
     this.grid = new THREE.GridHelper(cells * step, cells, theme.gridMain, theme.grid);
     this.grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), this.up);
     const snapped = this.centre.clone().divideScalar(step).round().multiplyScalar(step);

@@ -22,6 +22,9 @@ import { themeOf } from "./theme.js";
 import { waterfall } from "./waterfall.js";
 import { factor, spelled, tickLabels } from "./words.js";
 
+/** Size of a model of one body, relative to the body. */
+const ABOUT_BODIES = 1.5;
+
 /** Marks of events at most. */
 const MAX_EVENTS = 200;
 
@@ -259,7 +262,7 @@ export class Viewer {
     }
     this.model = null;
     if (this.kinematics) {
-      this.stage.measure(this.padded(this.kinematics.bounds()), this.upward());
+      this.stage.measure(this.extent(), this.upward());
       this.model = new ModelView(this.result.scene, this.kinematics, this.stage, this.theme, this.choices);
       this.stage.surround(this.model.points(), this.theme);
       this.stage.grid.visible = $("grid").checked;
@@ -277,31 +280,29 @@ export class Viewer {
     this.isMoved = true;
   }
 
-  /** Joints on the ground, and a single point, have room as well. */
-  padded({ low, high }) {
-    const { joints, springs } = this.result.scene;
-    for (const each of [...joints, ...springs]) {
-      for (const anchor of each.anchors ?? []) {
-        if (anchor.node !== 0) continue;
-        anchor.position.forEach((x, k) => {
-          low[k] = Math.min(low[k], x);
-          high[k] = Math.max(high[k], x);
-        });
-      }
-    }
-    const { bodies, point_masses: masses } = this.result.scene;
+  /** Corners of the space in which the model moves, and the size of the model without its travel, by which symbols are drawn. */
+  extent() {
+    const { joints, springs, bodies, point_masses: masses } = this.result.scene;
+    const anchors = [...joints, ...springs].flatMap((each) => each.anchors ?? []);
+    const { low, high, size } = this.kinematics.bounds(anchors.filter(({ node }) => node === 0).map(({ position }) => position));
+    const diagonals = bodies.map(({ shape }) => Math.hypot(...shape.sides));
     for (const { node, surface } of [...bodies, ...masses]) {
+      if (!surface?.points.length) continue;
       const at = this.kinematics.motion.reference.subarray(7 * node, 7 * node + 3);
-      for (const point of surface?.points ?? []) {
-        point.forEach((x, k) => {
-          low[k] = Math.min(low[k], at[k] + x);
-          high[k] = Math.max(high[k], at[k] + x);
-        });
-      }
+      const sides = [0, 1, 2].map((k) => {
+        const [least, most] = surface.points.reduce(([least, most], point) => [Math.min(least, point[k]), Math.max(most, point[k])], [Infinity, -Infinity]);
+        [low[k], high[k]] = [Math.min(low[k], at[k] + least), Math.max(high[k], at[k] + most)];
+        return most - least;
+      });
+      const index = bodies.findIndex((body) => body.node === node);
+      if (index >= 0) diagonals[index] = Math.hypot(...sides);
     }
-    const boxes = bodies.flatMap((body) => body.shape.sides);
-    const least = Math.max(...high.map((x, k) => x - low[k]), 0) > 0 ? 0 : Math.max(...boxes, 1) / 2;
-    return { low: low.map((x) => x - least), high: high.map((x) => x + least) };
+    const travel = Math.hypot(...high.map((x, k) => x - low[k]));
+    // A single point has room as well.
+    const room = travel > 0 ? 0 : Math.max(...bodies.flatMap((body) => body.shape.sides), 1) / 2;
+    const largest = Math.max(size, ...diagonals.map((diagonal) => ABOUT_BODIES * diagonal));
+    const own = room > 0 ? Math.sqrt(12) * room : largest > 0 ? Math.min(largest, travel) : travel;
+    return { low: low.map((x) => x - room), high: high.map((x) => x + room), size: own };
   }
 
   /** Against gravity, if that is along an axis; otherwise z. */
@@ -317,10 +318,10 @@ export class Viewer {
 
   /** Plane motion is looked at almost from the front, all other motion at an angle. */
   firstLook() {
-    const { low, high, size } = this.stage;
+    const { low, high, extent } = this.stage;
     const thickness = [0, 1, 2].map((k) => high.getComponent(k) - low.getComponent(k));
     const k = thickness.indexOf(Math.min(...thickness));
-    if (thickness[k] > 0.12 * size || this.kinematics.turnsOutOfPlane(k)) return this.look("iso");
+    if (thickness[k] > 0.12 * extent || this.kinematics.turnsOutOfPlane(k)) return this.look("iso");
     if (this.stage.up.getComponent(k) !== 0) return this.look("top");
     this.stage.look(this.oriented(k === 0 ? [1, -0.32, 0.24] : [0.28, -1, 0.24]));
   }

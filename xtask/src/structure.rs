@@ -406,7 +406,7 @@ mod tests {
         ("lissom-core", 30_390),
         ("lissom-drawing", 1380),
         ("lissom-model", 31_540),
-        ("lissom", 24_520),
+        ("lissom", 24_560),
         ("lissom-cli", 4730),
         ("lissom-fmi", 660),
         ("lissom-python", 2170),

@@ -1,6 +1,6 @@
 //! Geometry of a whole model: its parts, symbols and loads as pieces fixed to nodes.
 
-use lissom_model::scene::{Anchor, Body, Load, Scene, Tone};
+use lissom_model::scene::{Anchor, Body, Load, Scene, Symbol, Table, Tone};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
 
 use super::mesh::{Mesh, turn_to};
@@ -16,6 +16,8 @@ const MIN_TRUE: f64 = 1e-4;
 const MIN_SIDE: f64 = 0.003;
 /// Boxes whose second side exceeds the reach of the attachments by this factor are drawn smaller.
 const BULKY: f64 = 2.5;
+/// Size of a model of one body, relative to the body.
+const ABOUT_BODIES: f64 = 1.5;
 /// Turns of the coil of a spring.
 const TURNS: f64 = 9.0;
 
@@ -154,18 +156,22 @@ pub struct Geometry {
     pub low: Vector3,
     /// Upper bounds of positions of nodes over the motion [m].
     pub high: Vector3,
-    /// Distance between them [m].
+    /// Size of the model at one instant, without its travel: measure of symbols [m].
     pub size: f64,
     /// The upward direction.
     pub up: Vector3,
 }
 
 impl Geometry {
+    /// Distance between the bounds [m].
+    pub fn extent(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+
     /// The pieces of a scene with this motion. If `is_picture`, thin sections are drawn thicker and loads are drawn;
     /// otherwise sections are true down to 2e-4 of the model.
     pub fn new(scene: &Scene, motion: &Motion, is_picture: bool) -> Self {
-        let (low, high) = bounds(scene, motion);
-        let size = (high - low).norm();
+        let (low, high, size) = bounds(scene, motion);
         let mut geometry = Self { pieces: Vec::new(), low, high, size, up: scene.up() };
         geometry.parts(scene, motion, if is_picture { MIN_THICKNESS * size } else { MIN_TRUE * size });
         geometry.symbols(scene);
@@ -245,17 +251,13 @@ impl Geometry {
     }
 
     fn symbols(&mut self, scene: &Scene) {
-        let role = |name: &str| {
-            if scene.joints.iter().any(|joint| joint.name == name) {
-                Role::Joint
-            } else if scene.springs.iter().any(|spring| spring.name == name) {
-                Role::Spring
-            } else {
-                Role::Load
-            }
+        let role = |table: Option<Table>| match table {
+            Some(Table::Springs) => Role::Spring,
+            Some(Table::Loads) => Role::Load,
+            _ => Role::Joint,
         };
         for symbol in &scene.symbols {
-            let role = role(&symbol.name);
+            let role = role(symbol.table);
             let radius = symbol.unit.unwrap_or_else(|| self.radius(symbol.around));
             let at = Pose::translation(Vector3::from(symbol.anchor.position));
             // Solids of one colour are one piece.
@@ -277,7 +279,7 @@ impl Geometry {
         // A plinth is drawn below every joint on the ground.
         for joint in &scene.joints {
             let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == GROUND) else { continue };
-            let symbol = scene.symbols.iter().find(|symbol| symbol.name == joint.name);
+            let symbol = symbols_of(scene, &joint.name, Table::Joints).next();
             // What rolls on the ground is no support.
             if symbol.is_some_and(|symbol| symbol.unit.is_some()) {
                 continue;
@@ -288,8 +290,8 @@ impl Geometry {
             self.add(&joint.name, (Role::Joint, Colour::Ground), mesh, Carrier::Node(GROUND));
         }
         for rod in &scene.rods {
-            let mesh = Mesh::cylinder(0.35 * self.radius(0.0), 1.0);
-            let paint = (Role::Joint, Colour::Tone(Tone::Dark));
+            let mesh = Mesh::cylinder(rod.radius.unwrap_or_else(|| 0.35 * self.radius(0.0)), 1.0);
+            let paint = (role(rod.table), Colour::Tone(Tone::Dark));
             self.add(&rod.name, paint, mesh, Carrier::Span(rod.anchors));
         }
     }
@@ -300,7 +302,7 @@ impl Geometry {
     }
 
     fn springs(&mut self, scene: &Scene, motion: &Motion) {
-        let has_symbol = |name: &str| scene.symbols.iter().any(|symbol| symbol.name == name);
+        let has_symbol = |name: &str| symbols_of(scene, name, Table::Springs).next().is_some();
         for spring in scene.springs.iter().filter(|spring| !has_symbol(&spring.name)) {
             let Some(anchors) = spring.anchors else { continue };
             let (_, length) = span(&anchors, motion.reference());
@@ -342,6 +344,11 @@ impl Geometry {
     }
 }
 
+/// Symbols of what has this name in a table; those of earlier versions by the name alone.
+fn symbols_of<'a>(scene: &'a Scene, name: &'a str, table: Table) -> impl Iterator<Item = &'a Symbol> {
+    scene.symbols.iter().filter(move |own| own.name == name && own.table.is_none_or(|other| other == table))
+}
+
 /// Vectors of a load at all sampled instants.
 fn vectors(load: &Load) -> Option<Vec<Vector3>> {
     let vector = Vector3::from(load.vector?);
@@ -373,35 +380,48 @@ fn attached(scene: &Scene, node: NodeId) -> Vec<Vector3> {
     all.filter(|anchor| anchor.node == node).map(|anchor| Vector3::from(anchor.position)).collect()
 }
 
-/// Bounds of the positions of all nodes except the ground over all frames, with attachments to the ground.
-fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3) {
+/// Bounds of the positions of all nodes except the ground over all frames, with attachments to the ground, and the size of
+/// the model: that of its parts at one instant, without their travel. Attachments to the ground count at the start.
+fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3, f64) {
     let count = motion.reference().len();
     let frames = motion.times().len();
-    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
-    let mut take = |place: &Vector3| {
-        low = low.inf(place);
-        high = high.sup(place);
-    };
+    let nothing = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
+    let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
+    let on_ground = joints.chain(springs).flatten().filter(|anchor| anchor.node == GROUND);
+    let on_ground: Vec<Vector3> = on_ground.map(|anchor| Vector3::from(anchor.position)).collect();
+    let with = |(low, high): (Vector3, Vector3), place: &Vector3| (low.inf(place), high.sup(place));
+    let (mut all, mut size) = (on_ground.iter().fold(nothing, with), 0.0_f64);
     let stride = (frames * count / 400_000).max(1);
     for frame in (0..frames).step_by(stride) {
         let numbers = motion.frame(frame);
+        let mut now = if frame == 0 { all } else { nothing };
         for node in usize::from(count > 1)..count {
             let shift = Vector3::from_fn(|k, _| f64::from(numbers[3 * node + k]));
-            take(&(motion.reference()[node].position + shift));
+            now = with(now, &(motion.reference()[node].position + shift));
         }
+        size = size.max((now.1 - now.0).norm());
+        all = (all.0.inf(&now.0), all.1.sup(&now.1));
     }
-    let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
-    let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
-    for anchor in joints.chain(springs).flatten().filter(|anchor| anchor.node == GROUND) {
-        take(&Vector3::from(anchor.position));
-    }
-    if (high - low).norm() > 0.0 {
-        return (low, high);
+    let (low, high) = all;
+    let travel = (high - low).norm();
+    if travel > 0.0 && travel.is_finite() {
+        let solid = |body: &Body| match &body.surface {
+            None => Vector3::from(body.shape.sides).norm(),
+            Some(surface) => {
+                let points = surface.points.iter().map(|point| Vector3::from(point.map(f64::from)));
+                let (low, high) = points.fold(nothing, |bounds, point| with(bounds, &point));
+                (high - low).norm()
+            }
+        };
+        let size = scene.bodies.iter().map(|body| ABOUT_BODIES * solid(body)).fold(size, f64::max);
+        return (low, high, if size > 0.0 { size.min(travel) } else { travel });
     }
     // A single point gets space around it.
     let sides = scene.bodies.iter().flat_map(|body| body.shape.sides).fold(0.0, f64::max);
     let room = Vector3::repeat(if sides > 0.0 { 0.5 * sides } else { 0.5 });
-    if low.x.is_finite() { (low - room, high + room) } else { (-room, room) }
+    let (low, high) = if low.x.is_finite() { (low - room, high + room) } else { (-room, room) };
+    (low, high, (high - low).norm())
 }
 
 /// Poses of all nodes at a time [s] within the motion: between two frames displacements are linear and rotations

@@ -59,7 +59,7 @@ pub fn painted(geometry: &Geometry, projection: &Projection, poses: &[Pose], tim
             });
         }
     }
-    let buffer = ItemBuffer::of(&laid, geometry.size);
+    let buffer = ItemBuffer::of(&laid, geometry.extent());
     let (mut partly, mut wholly) = (Vec::new(), Vec::new());
     for (number, face) in laid.iter().enumerate() {
         match buffer.seen(face, number) {
@@ -68,7 +68,7 @@ pub fn painted(geometry: &Geometry, projection: &Projection, poses: &[Pose], tim
             visible::Seen::Partly => {
                 let mut rest = vec![face.clone()];
                 while let Some(face) = rest.pop() {
-                    if let Some(halves) = halved(&face, LONGEST * geometry.size) {
+                    if let Some(halves) = halved(&face, LONGEST * geometry.extent()) {
                         rest.extend(halves);
                     } else if buffer.seen(&face, number) != visible::Seen::Hidden {
                         let near = face.iter().map(|point| point[2]).sum::<f64>() / face.len() as f64;

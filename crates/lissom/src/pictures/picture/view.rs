@@ -51,7 +51,7 @@ impl Projection {
     /// The direction of view and the upward direction, for a model in a plane.
     fn chosen(geometry: &Geometry, to_up: &Rotation) -> Option<(Vector3, Vector3)> {
         let extent = geometry.high - geometry.low;
-        let mut thin = (0..3).filter(|k| extent[*k] < 0.02 * geometry.size);
+        let mut thin = (0..3).filter(|k| extent[*k] < 0.02 * geometry.extent());
         let (plane, None) = (thin.next()?, thin.next()) else { return None };
         if geometry.up[plane] != 0.0 {
             return Some((Vector3::z(), Vector3::y()));
