@@ -52,7 +52,7 @@ export const connect = (viewer) => {
   on("traces", "change", () => viewer.setTraces($("traces").checked));
   on("follow", "change", () => follow($("follow").checked));
   on("grid", "change", () => {
-    if (stage.grid) stage.grid.visible = $("grid").checked;
+    stage.grid.visible = $("grid").checked;
     viewer.isStale = true;
   });
   for (const box of document.querySelectorAll("[data-show]")) {

@@ -258,6 +258,18 @@ export class Kinematics {
     return { low: low.map((x) => x - room), high: high.map((x) => x + room), size };
   }
 
+  /** The middle between the outermost nodes, now. */
+  middle() {
+    return [0, 1, 2].map((k) => {
+      let [least, most] = [Infinity, -Infinity];
+      for (let at = (this.count > 1 ? 3 : 0) + k; at < 3 * this.count; at += 3) {
+        least = Math.min(least, this.positions[at]);
+        most = Math.max(most, this.positions[at]);
+      }
+      return (least + most) / 2;
+    });
+  }
+
   /** Whether a node turns by more than this about another axis than the one of this number, as wheels and shafts do in a plane. */
   turnsOutOfPlane(axis, angle = 0.1) {
     if (this.mode) return false;

@@ -8,6 +8,7 @@ import { fields, rangeOf, roundOff } from "./fields.js";
 import { Symbols } from "./joints.js";
 import { Outline } from "./outline.js";
 import { SectionAxes } from "./section_axes.js";
+import { CASTERS } from "./shadow.js";
 import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
 
@@ -146,7 +147,11 @@ export class ModelView {
 
   add(table, drawn, object, own, facts) {
     const key = this.register(table, { ...facts, drawn, object, own });
-    object.traverse((child) => (child.userData.part = key));
+    const castsShadow = table !== "loads" && facts.kind !== "ground";
+    object.traverse((child) => {
+      child.userData.part = key;
+      if (child.isMesh && castsShadow) child.layers.enable(CASTERS);
+    });
     this.moving.push(drawn);
     this.group.add(object);
   }
@@ -278,7 +283,7 @@ export class ModelView {
     }
   }
 
-  /** Points of all that is drawn, at so many instants of the motion as are cheap. */
+  /** Points of all that is drawn, with the height of the lowest that casts a shadow, at so many instants of the motion as are cheap. */
   points() {
     const { kinematics } = this;
     const { time } = kinematics;
@@ -289,15 +294,18 @@ export class ModelView {
     const instants = end > start ? Math.min(Math.max(Math.floor(MAX_POINTS / count), 8), 48, Math.max(motion.frames, 24)) : 1;
     const found = [];
     const at = new THREE.Vector3();
+    this.lowest = Infinity;
     for (let k = 0; k < instants; k++) {
       kinematics.set(start + ((end - start) * k) / Math.max(instants - 1, 1));
       for (const drawn of this.moving) drawn.update();
       this.group.updateMatrixWorld(true);
       for (const [mesh, indices] of sources) {
         if (!isShown(mesh)) continue;
+        const castsShadow = mesh.layers.isEnabled(CASTERS);
         for (const index of indices) {
           at.fromBufferAttribute(mesh.geometry.attributes.position, index).applyMatrix4(mesh.matrixWorld);
           found.push(at.x, at.y, at.z);
+          if (castsShadow) this.lowest = Math.min(this.lowest, at.dot(this.theme.up));
         }
       }
     }

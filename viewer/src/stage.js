@@ -3,6 +3,8 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
+import { Ground } from "./ground.js";
+
 /** Whether the processor draws, for want of a graphics card: every sample of a pixel then costs as much as a pixel. */
 const drawsInSoftware = () => {
   const gl = document.createElement("canvas").getContext("webgl2");
@@ -37,7 +39,10 @@ export class Stage {
     this.scene = new THREE.Scene();
     this.hemisphere = new THREE.HemisphereLight(0xffffff, 0x888888, 1.7);
     this.sun = new THREE.DirectionalLight(0xffffff, 1.9);
-    this.scene.add(this.hemisphere, this.sun, this.sun.target);
+    this.ground = new Ground(this.renderer);
+    /** The ground as it is shown or hidden. */
+    this.grid = this.ground.group;
+    this.scene.add(this.hemisphere, this.sun, this.sun.target, this.grid);
     this.perspective = new THREE.PerspectiveCamera((360 * HALF_ANGLE) / Math.PI, 1, 0.01, 1000);
     this.orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
     this.camera = this.perspective;
@@ -56,8 +61,9 @@ export class Stage {
     this.makeControls();
   }
 
-  /** Where the processor draws, edges of a picture that stands still are smoothed by four pixels for one, others are not. */
+  /** Where the processor draws, a picture that stands still has a shadow, and edges smoothed by four pixels for one; others have neither. */
   sharpen(isStill) {
+    this.hasShadow = isStill || !this.isSoftware;
     const ratio = Math.min(window.devicePixelRatio, 2) * (this.isSoftware && isStill ? 2 : 1);
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
   }
@@ -122,9 +128,10 @@ export class Stage {
     this.up.copy(up);
   }
 
-  /** Puts ground and axes around the points of the drawn geometry. */
-  surround(points, theme) {
+  /** Puts ground and axes around the points of the drawn geometry, of which the lowest part has this height. */
+  surround(points, lowest, theme) {
     this.points = points;
+    this.lowestPart = lowest;
     const box = new THREE.Box3();
     const at = new THREE.Vector3();
     for (let k = 0; k < points.length; k += 3) box.expandByPoint(at.fromArray(points, k));
@@ -156,26 +163,13 @@ export class Stage {
     this.hemisphere.color.set(theme.sky);
     this.hemisphere.groundColor.set(theme.floor);
     this.hemisphere.position.copy(this.up);
-    for (const thing of [this.grid, this.axes]) {
-      if (!thing) continue;
-      this.scene.remove(thing);
-      thing.geometry.dispose();
-    }
-    const cell = 10 ** Math.floor(Math.log10(this.extent / 2));
-    const step = this.extent / cell > 12 ? 2 * cell : cell;
-    const cells = 2 * Math.ceil((0.7 * this.extent) / step);
-    this.grid = new THREE.GridHelper(cells * step, cells, theme.gridMain, theme.grid);
-    this.grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), this.up);
-    const snapped = this.centre.clone().divideScalar(step).round().multiplyScalar(step);
-    const lowest = this.lowest();
-    snapped.addScaledVector(this.up, lowest - snapped.dot(this.up));
-    this.grid.position.copy(snapped);
-    this.grid.raycast = () => {};
-    this.cell = step;
+    this.ground.dress({ up: this.up, height: this.lowest(), lowest: this.lowestPart, size: this.size, theme });
+    this.axes?.removeFromParent();
+    this.axes?.geometry.dispose();
     this.axes = new THREE.AxesHelper(0.11 * this.size);
     this.axes.setColors("#d1495b", "#2f9e63", "#3b74d9");
     this.axes.raycast = () => {};
-    this.scene.add(this.grid, this.axes);
+    this.scene.add(this.axes);
   }
 
   /** Height of the lowest point. */
@@ -273,11 +267,19 @@ export class Stage {
     return [((seen.x + 1) / 2) * width, ((1 - seen.y) / 2) * height];
   }
 
-  render() {
+  /** Draws the model, whose middle is `centre` now. */
+  render(centre = this.middle ?? this.centre) {
+    this.middle = centre;
     const away = this.camera.position.clone().sub(this.controls.target).normalize();
     const right = new THREE.Vector3(1, 0, 0).applyQuaternion(this.camera.quaternion);
     this.sun.position.copy(this.controls.target).add(away).addScaledVector(this.up, 0.9).addScaledVector(right, -0.5);
     this.sun.target.position.copy(this.controls.target);
+    if (this.grid.visible) {
+      const { clientWidth: width, clientHeight: height } = this.holder;
+      this.ground.follow(this.controls.target, (0.8 * Math.min(width, height)) / this.pixelsPerMetre());
+      this.ground.shadow.plane.visible = this.hasShadow;
+      if (this.hasShadow) this.ground.shadow.update(this.scene, centre);
+    }
     this.renderer.render(this.scene, this.camera);
     this.drawGizmo();
     this.drawScale();
@@ -296,7 +298,7 @@ export class Stage {
     const power = 10 ** Math.floor(Math.log10(most));
     const length = power * [5, 2, 1].find((factor) => factor * power <= most * (1 + 1e-9));
     const width = `${(length * this.pixelsPerMetre()).toFixed(1)}px`;
-    const text = `${metres(length)}${this.grid?.visible ? ` · grid ${metres(this.cell)}` : ""}`;
+    const text = `${metres(length)}${this.grid.visible ? ` · grid ${metres(this.ground.cell)}` : ""}`;
     const [bar, label] = this.scale.children;
     if (bar.style.width !== width) bar.style.width = width;
     if (label.textContent !== text) label.textContent = text;

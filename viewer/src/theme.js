@@ -7,16 +7,16 @@ const light = {
   background: "#f4f6f9",
   parts: ["#6f9bc8", "#d99a6c", "#74b49b", "#c59bbd", "#d8bf6b", "#8fb8d6", "#a3a8b0", "#b5a98f"],
   joint: "#f1b434", pin: "#4d5663", axis: "#8a94a3", ground: "#a9b2be", drive: "#d1495b", spring: "#5b8c5a", stop: "#8a6d3b",
-  load: "#d1495b", moment: "#8e5bb5", grid: "#d3d9e1", gridMain: "#c0c8d2", trace: "#d55e00", text: "#1d2430",
-  neutral: "#a7afba", faint: "#6b7686", line: "#e3e7ed", selected: "#1f6feb", sky: "#ffffff", floor: "#b9c0ca",
+  load: "#d1495b", moment: "#8e5bb5", grid: "#c0c8d2", trace: "#d55e00", text: "#1d2430",
+  neutral: "#a7afba", faint: "#6b7686", line: "#e3e7ed", selected: "#1f6feb", sky: "#ffffff", floor: "#b9c0ca", shadow: 0.38,
 };
 
 const dark = {
   ...light,
   background: "#12161c",
   parts: ["#7fadd9", "#e0a478", "#7fc4a9", "#cfa6c8", "#e0c977", "#9cc6e2", "#aab0b9", "#c2b698"],
-  pin: "#8b95a3", axis: "#6b7686", ground: "#525c69", grid: "#232a33", gridMain: "#303945", trace: "#f0a35e",
-  neutral: "#58616d", text: "#e6eaf0", faint: "#98a3b3", line: "#2a323c", selected: "#58a6ff", sky: "#e9eef5", floor: "#4a5361",
+  pin: "#8b95a3", axis: "#6b7686", ground: "#525c69", grid: "#303945", trace: "#f0a35e",
+  neutral: "#58616d", text: "#e6eaf0", faint: "#98a3b3", line: "#2a323c", selected: "#58a6ff", sky: "#e9eef5", floor: "#4a5361", shadow: 0.6,
 };
 
 export const themeOf = (name) => (name === "dark" ? dark : light);

@@ -264,7 +264,7 @@ export class Viewer {
     if (this.kinematics) {
       this.stage.measure(this.extent(), this.upward());
       this.model = new ModelView(this.result.scene, this.kinematics, this.stage, this.theme, this.choices);
-      this.stage.surround(this.model.points(), this.theme);
+      this.stage.surround(this.model.points(), this.model.lowest, this.theme);
       this.stage.grid.visible = $("grid").checked;
       for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
       this.reactions = new Reactions(this.model, this.history, this.kinematics, this.stage.size, this.theme.load);
@@ -513,7 +513,7 @@ export class Viewer {
     if (this.isMoved && this.history) this.move();
     if (this.isStale && this.model) {
       this.stage.sharpen(!this.player.isPlaying);
-      this.stage.render();
+      this.stage.render(new THREE.Vector3(...this.kinematics.middle()));
       this.labels.update(this.model);
       for (const model of this.replaced.splice(0)) model.dispose();
       this.isStale = false;

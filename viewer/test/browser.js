@@ -14,6 +14,7 @@ import { examples } from "./examples.js";
 import { live } from "./live.js";
 import { parts } from "./parts.js";
 import { plots } from "./plots.js";
+import { shapes } from "./shapes.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
@@ -206,6 +207,7 @@ const tests = {
   ...colours({ view, open }),
   ...plots({ program, root, folder, view, open }),
   ...parts({ root, folder, view, open }),
+  ...shapes({ folder, view, open }),
   ...live({ program, folder }),
   ...examples({ root, folder, view, open }),
   "a mechanism of beams": async (browser) => {
