@@ -10,7 +10,7 @@ use lissom::pictures::picture::{Picture, PictureError, View, instants};
 use lissom::start::lower;
 use lissom::{FileError, FolderError, Model, ResultFolder};
 use lissom_model::files;
-use lissom_model::output::{DrawingError, animation};
+use lissom_model::output::{DrawingError, Format};
 use lissom_model::scene::Scene;
 
 use crate::verify;
@@ -105,9 +105,8 @@ const FIRST_INSTANT: f64 = 2.7;
 /// Number of natural modes in their picture.
 const SHAPES: usize = 2;
 
-/// Pixels of the files for each of the drawings', and of moving ones.
+/// Pixels of the files for each of the drawings'.
 const SCALE: f64 = 1.0;
-const MOVING_SCALE: f64 = 0.75;
 /// Time between moving pictures [s].
 const DELAY: f64 = 0.1;
 
@@ -185,7 +184,7 @@ fn modes() -> Result<Vec<u8>, PicturesError> {
         ..Picture::default()
     };
     let drawing = picture.draw(&found.scene, &motion, &found.title)?;
-    Ok(animation(&[drawing], 1.0, SCALE)?)
+    Ok(drawing.png_at(SCALE)?)
 }
 
 /// Two rods for each kind of joint, in rows that are level in an oblique view.
@@ -230,7 +229,7 @@ fn joints() -> Result<Vec<u8>, PicturesError> {
         ..Picture::default()
     };
     let drawing = picture.draw(&Scene::of(&document, &lowered.placed()), &motion, "")?;
-    Ok(animation(&[drawing], 1.0, SCALE)?)
+    Ok(drawing.png_at(SCALE)?)
 }
 
 /// The diagram of the overhung disc, as the bytes of an SVG file.
@@ -266,12 +265,12 @@ fn drawn(folder: &Path, chosen: &Instants) -> Result<Vec<u8>, PicturesError> {
     };
     let picture = Picture { times, view: View::Chosen, ..Picture::default() };
     if matches!(chosen, Moving(_)) {
-        let drawings = picture.draw_moving(&found.scene, &found.motion, &found.title)?;
-        return Ok(animation(&drawings, DELAY, MOVING_SCALE)?);
+        let model = (&found.scene, &found.motion, found.title.as_str());
+        return Ok(picture.moving(model, (Format::Apng, DELAY))?);
     }
     let drawing = picture.draw(&found.scene, &found.motion, &found.title)?;
-    // An animation of one picture has no need of the double resolution of others.
-    Ok(animation(&[drawing], 1.0, SCALE)?)
+    // The manual has no need of the double resolution of others.
+    Ok(drawing.png_at(SCALE)?)
 }
 
 #[cfg(test)]

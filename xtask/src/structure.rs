@@ -404,10 +404,10 @@ mod tests {
         ("lissom-mechanics", 32_540),
         ("lissom-system", 5240),
         ("lissom-core", 30_390),
-        ("lissom-drawing", 1380),
+        ("lissom-drawing", 1720),
         ("lissom-model", 31_540),
-        ("lissom", 24_560),
-        ("lissom-cli", 4730),
+        ("lissom", 24_610),
+        ("lissom-cli", 4740),
         ("lissom-fmi", 660),
         ("lissom-python", 2170),
     ];

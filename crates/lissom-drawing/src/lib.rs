@@ -12,15 +12,20 @@
 //! assert!(drawing.png().unwrap().starts_with(b"\x89PNG"));
 //! ```
 
+mod animation;
 mod axis;
 mod chart;
+mod depth_buffer;
 mod drawing;
+mod image;
 mod lettering;
 mod png;
 mod raster;
 mod svg;
 
-pub use self::png::animation;
+pub use animation::{Format, animation};
 pub use axis::{Axis, Scale};
 pub use chart::{Chart, Curve, Mark, Panel};
+pub use depth_buffer::{Corner, DepthBuffer};
 pub use drawing::{Align, Drawing, DrawingError, PngError, Shade, palette};
+pub use image::Image;

@@ -8,6 +8,7 @@ use tiny_skia::{
 };
 
 use crate::drawing::{Align, DASH, Drawing, DrawingError, EDGE, PngError, Shade, Shape};
+use crate::image::Image;
 use crate::lettering;
 
 /// Maximum number of pixels of a picture.
@@ -22,6 +23,17 @@ impl Drawing {
     pub(crate) fn raster(&self, scale: f64) -> Result<Raster, DrawingError> {
         self.check()?;
         Ok(Raster::new(self, scale)?)
+    }
+
+    /// Red, green and blue of all pixels of an image of its size with the drawing above it.
+    pub(crate) fn over(&self, image: &Image) -> Result<Vec<u8>, DrawingError> {
+        let raster = self.raster(1.0)?;
+        if [raster.width, raster.height] != image.size {
+            return Err(PngError::Sizes.into());
+        }
+        let mut pixels = Vec::new();
+        raster.write(Some(image), &mut pixels)?;
+        Ok(pixels)
     }
 }
 
@@ -118,14 +130,20 @@ impl Raster {
         self.outlines.extend(bar.map(|path| Outline { path, paint }));
     }
 
-    /// Writes red, green and blue of all pixels, row by row from above, on white.
-    pub(crate) fn write(&self, target: &mut impl Write) -> Result<(), PngError> {
+    /// Writes red, green and blue of all pixels, row by row from above, on an image or on white.
+    pub(crate) fn write(&self, below: Option<&Image>, target: &mut impl Write) -> Result<(), PngError> {
         let mut band = Pixmap::new(self.width, BAND.min(self.height)).ok_or(PngError::Nothing)?;
         let mut colours = vec![[0; 3]; self.width as usize];
         for top in (0..self.height).step_by(BAND as usize) {
             let rows = BAND.min(self.height - top);
             let [from, to] = [top, top + rows].map(|row| row as f32);
             band.data_mut().fill(255);
+            if let Some(image) = below {
+                let own = &image.pixels[top as usize * colours.len()..];
+                for (pixel, own) in band.data_mut().as_chunks_mut::<4>().0.iter_mut().zip(own) {
+                    pixel[..3].copy_from_slice(own);
+                }
+            }
             for Outline { path, paint } in &self.outlines {
                 if path.bounds().top() < to && path.bounds().bottom() > from {
                     let place = Transform::from_translate(0.0, -from);
@@ -176,7 +194,7 @@ mod tests {
 
     fn pixels(raster: &Raster) -> Vec<u8> {
         let mut pixels = Vec::new();
-        raster.write(&mut pixels).unwrap();
+        raster.write(None, &mut pixels).unwrap();
         pixels
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lissom::model::files;
-use lissom::model::output::{DrawingError, animation};
+use lissom::model::output::{DrawingError, Format};
 use lissom::model::scene::Scene;
 use lissom::motion::Motion;
 use lissom::pictures::picture::{Picture, PictureError, RecordedForces, View, instants};
@@ -54,12 +54,12 @@ pub(super) struct Snapshot {
     #[arg(long, value_name = "N", conflicts_with = "initial", value_parser = clap::value_parser!(u32).range(1..))]
     mode: Option<u32>,
 
-    /// Write an animation (APNG, which browsers can show) of the whole motion with this duration [s].
+    /// Write an animation (APNG, which browsers can show, or GIF) of the whole motion with this duration [s].
     #[arg(long, value_name = "SECONDS", conflicts_with_all = ["at", "strip", "initial"])]
     animate: Option<f64>,
 
-    /// File of the picture, with the extension .svg or .png [default: snapshot.svg in the folder of results,
-    /// snapshot.png if it moves].
+    /// File of the picture, with the extension .svg or .png, of an animation .png or .gif [default: snapshot.svg in the
+    /// folder of results, snapshot.png if it moves].
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
 
@@ -116,14 +116,16 @@ impl Snapshot {
             None => false,
             Some(Some(ending)) if ending.eq_ignore_ascii_case("svg") => false,
             Some(Some(ending)) if ending.eq_ignore_ascii_case("png") => true,
+            Some(_) if self.animate.is_some() && self.is_gif() => false,
             Some(_) => {
-                let message = "the name of the picture must end in .svg or .png";
+                let message =
+                    "the name of the picture must end in .svg or .png, that of an animation in .png or .gif";
                 return Err(Failure::request(message));
             }
         };
         let wrong = |message: String| Err(Failure::request(message));
-        if self.animate.is_some() && self.out.is_some() && !is_png {
-            return wrong("an animation is a PNG file: its name must end in .png".to_owned());
+        if self.animate.is_some() && self.out.is_some() && !is_png && !self.is_gif() {
+            return wrong("an animation is a PNG or GIF file: its name must end in .png or .gif".to_owned());
         }
         if let Some(duration) = self.animate.filter(|duration| !(0.1..=MAX_SECONDS).contains(duration)) {
             return wrong(format!("`--animate {duration}` must be from 0.1 to {MAX_SECONDS} seconds"));
@@ -210,6 +212,12 @@ impl Snapshot {
         self.write(&picture, (&modes.scene, &motion, &modes.title), (folder, is_png))
     }
 
+    /// Whether the name of the picture ends in .gif.
+    fn is_gif(&self) -> bool {
+        let ending = self.out.as_deref().and_then(Path::extension);
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case("gif"))
+    }
+
     /// Number of pictures of an animation.
     fn pictures(&self) -> Option<usize> {
         self.animate.map(|duration| (duration * PICTURES_PER_SECOND).round() as usize)
@@ -251,8 +259,8 @@ impl Snapshot {
         let wrong = |error| Failure::new(Exit::BadModel, &error);
         let failed = |error: DrawingError| Failure::new(Exit::Failed, &PictureError::from(error));
         let bytes = if self.animate.is_some() {
-            let drawings = picture.draw_moving(scene, motion, title).map_err(wrong)?;
-            animation(&drawings, 1.0 / PICTURES_PER_SECOND, 1.0).map_err(failed)?
+            let format = if self.is_gif() { Format::Gif } else { Format::Apng };
+            picture.moving((scene, motion, title), (format, 1.0 / PICTURES_PER_SECOND)).map_err(wrong)?
         } else {
             let drawing = picture.draw(scene, motion, title).map_err(wrong)?;
             if is_png { drawing.png().map_err(failed)? } else { drawing.svg().map_err(failed)?.into_bytes() }

@@ -90,6 +90,30 @@ fn recorded_forces_are_arrows_at_contacts_and_along_springs() {
     assert!(none.code == 2 && none.errors.contains("no force is recorded"), "{}", none.errors);
 }
 
+/// A body that drives 90 m has symbols in proportion to itself, and its drag acts at its node.
+#[test]
+fn symbols_scale_with_the_model_and_local_loads_act_at_their_node() {
+    let folder = Folder::new("snapshot-travel");
+    let model = "lissom = 1\n[bodies.car]\nmass = 1000\ninertia = { box = [4, 1.6, 0.6] }\nvelocity = [30, 0, 0]\n\
+                 [joints.car]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"car\"\naxis = \"x\"\n\
+                 [local_loads.drag]\non = \"car\"\nforce = [\"-0.1*v1\", 0, 0]\n\
+                 [outputs.drag]\nkind = \"local_load\"\nof = \"drag\"\n\
+                 [analysis]\nkind = \"dynamics\"\nend = 3\nstep = 0.1\n";
+    fs::write(folder.path().join("car.toml"), model).unwrap();
+    let run = lissom(&["run", "car.toml", "-q", "--out", "car"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let run = ResultFolder::recorded(&folder.path().join("car")).unwrap();
+    let geometry = Geometry::new(&run.scene, &run.motion, true);
+    assert!(geometry.extent() > 85.0 && (geometry.size - 1.5 * 4.35).abs() < 0.1, "{}", geometry.size);
+    let body = geometry.pieces.iter().find(|piece| piece.role == Role::Body).unwrap();
+    let reach = body.mesh.points.iter().fold(0.0, |most: f64, point| most.max(point.x));
+    assert!((reach - 2.0).abs() < 1e-6, "the solid of the inertia: {reach}");
+    let poses = poses_at(&run.motion, 3.0).unwrap();
+    let forces = RecordedForces::of(&run.scene, &run.record);
+    let [(at, force)] = forces.at(&poses, 3.0)[..] else { panic!("one force") };
+    assert!((at.x - 90.0).abs() < 0.1 && (force.x + 3.0).abs() < 0.01, "{at} {force}");
+}
+
 #[test]
 fn moving_pictures_hold_so_many_frames_of_one_size() {
     let folder = Folder::new("snapshot-moving");
@@ -103,8 +127,20 @@ fn moving_pictures_hold_so_many_frames_of_one_size() {
     let at = bytes.windows(4).position(|window| window == b"acTL").unwrap();
     assert_eq!(bytes[at + 4..at + 8], [0, 0, 0, 30], "20 pictures in a second");
     assert_eq!((count(b"fcTL"), count(b"fdAT"), count(b"IEND")), (30, 29, 1));
+    let moving =
+        lissom(&["snapshot", "out/pendulum", "--animate", "1", "--out", "moving.gif", "-q"], folder.path());
+    assert_eq!(moving.code, 0, "{}", moving.errors);
+    let bytes = fs::read(folder.path().join("moving.gif")).unwrap();
+    assert!(bytes.starts_with(b"GIF89a"));
+    // Each frame has a control block, here with a delay of five hundredths of a second.
+    let controls = bytes
+        .windows(3)
+        .zip(bytes[4..].iter())
+        .filter(|(head, delay)| *head == [0x21, 0xf9, 4] && **delay == 5);
+    assert_eq!(controls.count(), 20);
     for (options, message) in [
         (["--animate", "1", "--out", "moving.svg"], "must end in .png"),
+        (["--strip", "2", "--out", "strip.gif"], "must end in .svg or .png"),
         (["--animate", "1000", "--out", "moving.png"], "must be from 0.1 to 30"),
     ] {
         let refused = lissom(&[&["snapshot", "out/pendulum"][..], &options].concat(), folder.path());

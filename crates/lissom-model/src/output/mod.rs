@@ -22,7 +22,10 @@ pub use bode::BodePlot;
 pub use csv::{CsvWriter, quoted};
 pub use curve_record::CurveRecord;
 pub use curves::{CurveError, Over, Plots, Source, plots};
-pub use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, DrawingError, Mark, Panel, Shade, animation};
+pub use lissom_drawing::{
+    Align, Axis, Chart, Corner, Curve, DepthBuffer, Drawing, DrawingError, Format, Image, Mark, Panel, Shade,
+    animation,
+};
 pub use log_plot::LogFigure;
 pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves};
 pub use record::{Record, RecordError};

@@ -1,7 +1,8 @@
 //! Pictures of a mechanism without a browser: one instant, or several side by side, drawn from the same shapes as on the
 //! page. Faces are shaded; hidden ones are omitted, and partly hidden ones are divided into small faces and painted from
-//! the farthest to the nearest.
+//! the farthest to the nearest. Moving pictures are drawn by a depth buffer.
 
+mod depth_image;
 mod forces;
 mod painter;
 mod snapshot;

@@ -104,7 +104,7 @@ fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut visi
 }
 
 /// The normal of a face by Newell's formula; none for a face without area.
-fn normal(points: &[Vector3]) -> Option<Vector3> {
+pub(super) fn normal(points: &[Vector3]) -> Option<Vector3> {
     // Relative to the first point, so that positions far from the origin keep their digits.
     let from_first = |k: usize| points[k % points.len()] - points[0];
     let twice: Vector3 = (0..points.len()).map(|k| from_first(k).cross(&from_first(k + 1))).sum();

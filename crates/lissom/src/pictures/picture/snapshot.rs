@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use lissom_core::diagnostics::Diagnose;
-use lissom_model::output::{Align, Drawing, DrawingError, Shade};
+use lissom_model::output::{Align, Drawing, DrawingError, Format, Shade, animation};
 use lissom_model::scene::Scene;
-use lissom_motion::Vector3;
+use lissom_motion::{Motion as Pose, Vector3};
 
+use super::depth_image::depth_image;
 use super::forces::RecordedForces;
 use super::painter::{Seen, painted};
 use super::view::{Projection, View};
@@ -122,6 +123,9 @@ impl Frame {
 
 /// The projections at all instants.
 struct Panels {
+    geometry: Geometry,
+    /// Poses of the nodes, by panel.
+    poses: Vec<Vec<Pose>>,
     seen: Vec<Vec<Seen>>,
     paths: Vec<Vec<[f64; 2]>>,
     /// Begin and end of each arrow, by panel.
@@ -139,7 +143,7 @@ impl Picture {
     /// # Errors
     /// If an instant is outside the motion, or there are none or too many.
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
-        let panels = self.panels(scene, motion, MAX_PANELS)?;
+        let panels = self.panels(scene, motion, Some(MAX_PANELS))?;
         let count = panels.seen.len();
         let sheet = Sheet::of(panels.frame, count, MAX_EXTENT);
         Ok(sheet.drawn(
@@ -150,22 +154,27 @@ impl Picture {
         ))
     }
 
-    /// Draws a model with this motion, with a sheet for each instant, all of the same size and scale.
+    /// The bytes of a moving picture of a model with this motion, each instant shown for `delay` [s].
     ///
     /// # Errors
     /// If an instant is outside the motion, or there are none or too many.
-    pub fn draw_moving(
+    pub fn moving(
         &self,
-        scene: &Scene,
-        motion: &Motion,
-        title: &str,
-    ) -> Result<Vec<Drawing>, PictureError> {
-        let panels = self.panels(scene, motion, MAX_FRAMES)?;
+        (scene, motion, title): (&Scene, &Motion, &str),
+        (format, delay): (Format, f64),
+    ) -> Result<Vec<u8>, PictureError> {
+        let panels = self.panels(scene, motion, None)?;
         let sheet = Sheet::of(panels.frame, 1, MAX_MOVING);
         let labels = self.labels(scene);
         let note = self.scale_of_forces(panels.longest);
-        let drawn = |k: usize| sheet.drawn(&panels, k..k + 1, (title, &labels[k..=k]), &note);
-        Ok((0..panels.seen.len()).map(drawn).collect())
+        let frame = |k: usize| {
+            let drawing = sheet.drawn(&panels, k..k + 1, (title, &labels[k..=k]), &note);
+            let size = drawing.size.map(|side| side.ceil() as u32);
+            let model = (&panels.geometry, &panels.projection);
+            let now = (panels.poses[k].as_slice(), self.times[k]);
+            Ok((depth_image(model, now, size, sheet.place(0, title)), drawing))
+        };
+        animation((format, delay), panels.poses.len(), frame)
     }
 
     /// The scale of arrows; empty without forces.
@@ -190,21 +199,30 @@ impl Picture {
         self.times.iter().enumerate().map(label).collect()
     }
 
-    fn panels(&self, scene: &Scene, motion: &Motion, most: usize) -> Result<Panels, PictureError> {
+    /// With at most this number of panels; without a number, those of a moving picture, whose faces are not yet painted.
+    fn panels(&self, scene: &Scene, motion: &Motion, most: Option<usize>) -> Result<Panels, PictureError> {
         let (Some(&first), Some(&last)) = (motion.times().first(), motion.times().last()) else {
             return Err(PictureError::Empty);
         };
+        let (is_moving, most) = (most.is_none(), most.unwrap_or(MAX_FRAMES));
         if self.times.is_empty() || self.times.len() > most {
             return Err(PictureError::TooMany { count: self.times.len(), most });
         }
         let geometry = Geometry::new(scene, motion, true);
         let projection = Projection::of(&geometry, self.view);
-        let mut panels: Vec<Vec<Seen>> = Vec::new();
+        let (mut all, mut panels) = (Vec::new(), Vec::new());
         let (mut arrows, longest) = (Vec::new(), ARROW * geometry.size);
         let mut frame = Frame { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for &time in &self.times {
             let poses = poses_at(motion, time).ok_or(PictureError::Outside { time, first, last })?;
-            let seen = painted(&geometry, &projection, &poses, time);
+            let seen = if is_moving {
+                for mesh in geometry.pieces.iter().filter_map(|piece| piece.at(&poses, time)) {
+                    mesh.points.iter().for_each(|point| frame.take(&projection.flat(point)));
+                }
+                Vec::new()
+            } else {
+                painted(&geometry, &projection, &poses, time)
+            };
             seen.iter().flat_map(|face| &face.points).for_each(|point| frame.take(point));
             panels.push(seen);
             let arrow = |(at, force): (Vector3, Vector3)| {
@@ -214,10 +232,11 @@ impl Picture {
             let drawn: Vec<_> = self.forces.at(&poses, time).into_iter().map(arrow).collect();
             drawn.iter().flatten().for_each(|point| frame.take(point));
             arrows.push(drawn);
+            all.push(poses);
         }
         let paths = if self.paths { paths(scene, motion, &projection) } else { Vec::new() };
         paths.iter().flatten().for_each(|point| frame.take(point));
-        Ok(Panels { seen: panels, paths, arrows, longest, projection, frame })
+        Ok(Panels { geometry, poses: all, seen: panels, paths, arrows, longest, projection, frame })
     }
 }
 
@@ -260,6 +279,25 @@ impl Sheet {
         (2..=count).map(of_columns).fold(of_columns(1), better)
     }
 
+    /// Width and height of a panel with its margin.
+    fn panel(&self) -> [f64; 2] {
+        self.frame.extent().map(|extent| extent * self.scale + 2.0 * MARGIN)
+    }
+
+    fn width(&self) -> f64 {
+        (self.columns as f64 * self.panel()[0]).max(240.0)
+    }
+
+    /// Pixels of projected positions in the panel of this index.
+    fn place(&self, index: usize, title: &str) -> impl Fn(&[f64; 2]) -> [f64; 2] + Copy + use<> {
+        let [width, height] = self.panel();
+        let left = 0.5 * (self.width() - self.columns as f64 * width);
+        let x = left + (index % self.columns) as f64 * width + MARGIN;
+        let y = head(title) + (index / self.columns) as f64 * (height + LINE) + MARGIN;
+        let (low, high, scale) = (self.frame.low[0], self.frame.high[1], self.scale);
+        move |point| [x + (point[0] - low) * scale, y + (high - point[1]) * scale]
+    }
+
     fn drawn(
         &self,
         panels: &Panels,
@@ -267,23 +305,15 @@ impl Sheet {
         (title, labels): (&str, &[String]),
         note: &str,
     ) -> Drawing {
-        let [width, height] = self.frame.extent().map(|extent| extent * self.scale + 2.0 * MARGIN);
-        let head = if title.is_empty() { 0.0 } else { 2.0 * LINE };
-        let sheet_width = (self.columns as f64 * width).max(240.0);
-        let left = 0.5 * (sheet_width - self.columns as f64 * width);
-        let size = [sheet_width, head + self.rows as f64 * (height + LINE) + FOOT];
+        let [_, height] = self.panel();
+        let size = [self.width(), head(title) + self.rows as f64 * (height + LINE) + FOOT];
         let mut drawing = Drawing::new("snapshot", size);
         if !title.is_empty() {
             drawing.words([0.5 * size[0], 1.3 * LINE], title, 17, Align::Middle, WORDS);
         }
         let all = panels.seen[shown.clone()].iter().zip(&panels.arrows[shown]);
         for (index, ((faces, arrows), words)) in all.zip(labels).enumerate() {
-            let x = left + (index % self.columns) as f64 * width + MARGIN;
-            let y = head + (index / self.columns) as f64 * (height + LINE) + MARGIN;
-            let place = |point: &[f64; 2]| {
-                let [low, high] = [self.frame.low[0], self.frame.high[1]];
-                [x + (point[0] - low) * self.scale, y + (high - point[1]) * self.scale]
-            };
+            let place = self.place(index, title);
             for path in &panels.paths {
                 drawing.line(path.iter().map(place).collect(), TRACE, 1.0);
             }
@@ -293,7 +323,9 @@ impl Sheet {
             for [from, to] in arrows {
                 arrow(&mut drawing, place(from), place(to));
             }
-            let middle = [x + 0.5 * width - MARGIN, y + height - MARGIN + 0.6 * LINE];
+            let [low, high] = [self.frame.low, self.frame.high];
+            let [x, y] = place(&[0.5 * (low[0] + high[0]), low[1]]);
+            let middle = [x, y + MARGIN + 0.6 * LINE];
             drawing.words(middle, words, 13, Align::Middle, FAINT);
         }
         let foot = size[1] - 0.45 * FOOT;
@@ -317,6 +349,11 @@ impl Sheet {
             if length < 1.0 { format!("{} mm", short(1e3 * length)) } else { format!("{} m", short(length)) };
         drawing.words([0.5 * (start + x), y - 6.0], &words, 12, Align::Middle, FAINT);
     }
+}
+
+/// Height of the title.
+fn head(title: &str) -> f64 {
+    if title.is_empty() { 0.0 } else { 2.0 * LINE }
 }
 
 /// An arrow of a force.
