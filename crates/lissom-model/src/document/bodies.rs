@@ -69,7 +69,8 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3, Option<Sol
     let inertia = match (&solid, mass) {
         (Some(solid), Some(mass)) => Some(mass * solid.inertia()),
         (Some(_), None) => None,
-        (None, _) => reader.inertia("inertia").map(|inertia| inertia.value),
+        // A mass that could not be read is reported already.
+        (None, mass) => reader.inertia("inertia", mass.unwrap_or(1.0)).map(|inertia| inertia.value),
     };
     Some((mass?, inertia?, solid))
 }

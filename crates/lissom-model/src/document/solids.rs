@@ -61,13 +61,6 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
                 Value::List(list) => list.as_slice(),
                 _ => std::slice::from_ref(node),
             };
-            if entries.is_empty() {
-                return context.fail(
-                    node.span,
-                    format!("{what} is empty"),
-                    "give at least one solid, or remove it",
-                );
-            }
             let (mut surface, mut solids) = (Surface::default(), Vec::new());
             let mut positioned = Vec::new();
             for entry in entries {
@@ -86,8 +79,9 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
                     "give each of them a `position`, which is measured from the body's reference point";
                 context.report(Problem::warning(node.span, message).help(help));
             }
-            let surface = (!surface.triangles.is_empty()).then(|| Arc::new(surface));
-            Some(Body { surface, solids })
+            // Without entries nothing is drawn; without files that were looked for, the solid with its inertia.
+            let is_drawn = entries.is_empty() || !surface.triangles.is_empty();
+            Some(Body { surface: is_drawn.then(|| Arc::new(surface)), solids })
         }
         (None, Some(node)) => Some(Body { surface: file(reader, node, "mesh")?, solids: Vec::new() }),
         (Some(_), Some(node)) => {

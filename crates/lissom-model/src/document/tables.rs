@@ -141,7 +141,12 @@ fn beam() -> Vec<Key> {
 fn body() -> Vec<Key> {
     vec![
         placed_in(),
-        required("mass", Shape::Mass, "kg", "mass, or { density } of the solid in `inertia`"),
+        required(
+            "mass",
+            Shape::Mass,
+            "kg",
+            "mass, or { density } of the solid in `inertia`; 0, also for `inertia`, is a frame between joints",
+        ),
         required(
             "inertia",
             Shape::Inertia,
@@ -156,7 +161,7 @@ fn body() -> Vec<Key> {
             "shape",
             Shape::Solid,
             "",
-            "what is drawn of it, about the centre of mass; default: a solid with its inertia",
+            "what is drawn of it, about the centre of mass; default: a solid with its inertia; [] draws nothing",
         ),
         optional(
             "mesh",

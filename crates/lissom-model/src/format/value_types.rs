@@ -286,9 +286,9 @@ impl Shape {
             }
             Self::Axes => row("two vectors", list(&vector(), 2), Fixed("[[f64; 3]; 2]"), "list[Vector]"),
             Self::Mass => {
-                let positive = number_in(&json!({ "exclusiveMinimum": 0 }));
-                let schema = any_of(&[positive, schema_of_keys(&Self::density_keys())]);
-                row("a number > 0, or `{ density }`", schema, Fixed("Mass"), "Function")
+                let mass = number_in(&json!({ "minimum": 0 }));
+                let schema = any_of(&[mass, schema_of_keys(&Self::density_keys())]);
+                row("a number ≥ 0, or `{ density }`", schema, Fixed("Mass"), "Function")
             }
             Self::Inertia => {
                 let schema = any_of(&[vector(), matrix(3), schema_of_keys(&Self::solid_keys())]);
@@ -297,7 +297,7 @@ impl Shape {
             }
             Self::Solid => {
                 let solid = schema_of_keys(&Self::drawn_keys());
-                let schema = any_of(&[solid.clone(), list_of(solid, 1)]);
+                let schema = any_of(&[solid.clone(), list_of(solid, 0)]);
                 row("a solid, or a list of solids", schema, Fixed("Solid"), "Table | list[Table]")
             }
             Self::Friction => {

@@ -30,7 +30,11 @@ fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
     for body in by_name(&document.bodies, |body| &body.name.value) {
         let frame = Motion::new(Rotation::from_matrix(&body.axes), body.position);
         let node = builder.add_node(&body.name.value, frame, Freedoms::Full);
-        builder.add_inertia(node, &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia));
+        // A body without mass is a frame between joints.
+        if body.mass > 0.0 {
+            let inertia = Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia);
+            builder.add_inertia(node, &inertia);
+        }
         names.nodes.insert(body.name.value.clone(), node);
     }
 }

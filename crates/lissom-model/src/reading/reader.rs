@@ -120,8 +120,8 @@ impl<'c, 'a> Reader<'c, 'a> {
         let what = self.words(key);
         let value = self.context.number(node, &what)?;
         let wanted = match *self.shape(key) {
-            Shape::Positive | Shape::Mass if value <= 0.0 => "greater than zero".to_owned(),
-            Shape::NotNegative if value < 0.0 => "zero or greater".to_owned(),
+            Shape::Positive if value <= 0.0 => "greater than zero".to_owned(),
+            Shape::NotNegative | Shape::Mass if value < 0.0 => "zero or greater".to_owned(),
             Shape::Between(least, most) if !(least..=most).contains(&value) => {
                 format!("from {least} to {most}")
             }
@@ -265,10 +265,10 @@ impl<'c, 'a> Reader<'c, 'a> {
         Some(Located::new(in_global_axes, node.span))
     }
 
-    /// An inertia matrix.
-    pub(crate) fn inertia(&self, key: &str) -> Option<Located<Matrix3>> {
+    /// The inertia matrix of a body of this mass.
+    pub(crate) fn inertia(&self, key: &str, mass: f64) -> Option<Located<Matrix3>> {
         let node = self.node(key)?;
-        Some(Located::new(self.context.inertia(node, &self.words(key))?, node.span))
+        Some(Located::new(self.context.inertia(node, &self.words(key), mass)?, node.span))
     }
 
     /// A function of time.

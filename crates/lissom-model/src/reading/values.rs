@@ -222,14 +222,23 @@ impl Context<'_> {
         Some(DMatrix::from_row_slice(size, size, &numbers))
     }
 
-    /// Three numbers, or a symmetric 3 x 3 matrix; positive definite.
-    pub(crate) fn inertia(&self, node: &Node, what: &str) -> Option<Matrix3> {
+    /// Three numbers, or a symmetric 3 x 3 matrix; positive definite, or zero if `mass` is.
+    pub(crate) fn inertia(&self, node: &Node, what: &str, mass: f64) -> Option<Matrix3> {
         let matrix = if Self::is_list_of_lists(node) {
             let rows = self.matrix::<3>(node, what)?;
             Matrix3::from_fn(|i, j| rows[i][j])
         } else {
             Matrix3::from_diagonal(&self.vector(node, what)?)
         };
+        if mass == 0.0 {
+            let help = "give both a mass and an inertia, or inertia = [0, 0, 0] for a body without mass";
+            let message = format!("{what} is not zero, but the mass is");
+            return if matrix == Matrix3::zeros() {
+                Some(matrix)
+            } else {
+                self.fail(node.span, message, help)
+            };
+        }
         let moments = matrix.symmetric_eigenvalues();
         let [a, b, c] = [moments[0], moments[1], moments[2]];
         if !(a > 0.0 && b > 0.0 && c > 0.0) {

@@ -52,13 +52,13 @@ class Body(Entry):
 
     Args:
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
-        mass: mass, or { density } of the solid in `inertia` [kg]; a number > 0, or `{ density }`.
+        mass: mass, or { density } of the solid in `inertia`; 0, also for `inertia`, is a frame between joints [kg]; a number ≥ 0, or `{ density }`.
         inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { kind = "box", sides = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or a solid.
         position: position of the reference frame [m]; a position, or nothing.
         rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
         axes: instead of `rotation`: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
-        shape: what is drawn of it, about the centre of mass; default: a solid with its inertia; a solid, or a list of solids, or nothing.
+        shape: what is drawn of it, about the centre of mass; default: a solid with its inertia; [] draws nothing; a solid, or a list of solids, or nothing.
         mesh: instead of `shape`: an STL or glTF file in metres and body axes; path relative to this file; a text, or nothing.
         velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
         angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.

@@ -45,7 +45,7 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `mass`: mass, or { density } of the solid in `inertia` \[kg\]
+    /// - `mass`: mass, or { density } of the solid in `inertia`; 0, also for `inertia`, is a frame between joints \[kg\]
     /// - `inertia`: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { kind = "box", sides = \[a, b, c\] } \[kg m²\]
     new(mass: Mass = "mass", inertia: Inertia = "inertia")
     /// Position of the reference frame \[m\].
@@ -56,7 +56,7 @@ entry! {
     axes: [[f64; 3]; 2] = "axes";
     /// In body axes, from the reference point \[m\].
     center_of_mass: [f64; 3] = "center_of_mass";
-    /// What is drawn of it, about the centre of mass; default: a solid with its inertia.
+    /// What is drawn of it, about the centre of mass; default: a solid with its inertia; \[\] draws nothing.
     shape: Solid = "shape";
     /// Instead of `shape`: an STL or glTF file in metres and body axes; path relative to this file.
     mesh: String = "mesh";
