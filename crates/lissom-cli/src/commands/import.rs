@@ -1,9 +1,11 @@
 //! `lissom import`: a model file from a robot description of another program.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use lissom::exchange::import::{Freedom, Options, Pose, Root, Unsupported, from_description, model_text};
+use lissom::exchange::import::{
+    ChosenStart, Freedom, Options, Pose, Root, Unsupported, chosen_starts, from_file, model_text,
+};
 use lissom::model::files;
 use lissom::{Diagnose, Diagnostic, Model, SessionError};
 
@@ -67,9 +69,10 @@ impl Import {
                 format!("`{}` already exists and is not overwritten: name another with --out", out.display());
             return Err(Failure::request(message));
         }
-        let text =
+        if !self.file.is_file() {
             files::read_input_text(&self.file).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let mut robot = from_description(&text).map_err(|error| bad(error.diagnostic()))?;
+        }
+        let mut robot = from_file(&self.file).map_err(|error| bad(error.diagnostic()))?;
         robot.locate_meshes(&self.file, &out);
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {
@@ -97,13 +100,41 @@ impl Import {
             robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone());
         let left_out: String =
             left_out.flat_map(|what| ["  omitted: ".to_owned(), what, "\n".to_owned()]).collect();
+        let chosen = chosen_starts(&robot, &pose, options);
+        let starts = self.starts(&chosen, &out);
         terminal::print(&format!(
-            "{} is written: {} links, {moving} moving joints.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch the \
+            "{} is written: {} links, {moving} moving joints.\n{left_out}{starts}Next:\n  lissom view {} --open    simulate it and watch the \
              motion\n",
             out.display(),
             robot.links.len(),
             out.display()
         ));
         Ok(Exit::Done)
+    }
+
+    /// Start positions that were chosen because limits exclude others, and the command that chooses them.
+    fn starts(&self, chosen: &[ChosenStart], out: &Path) -> String {
+        if chosen.is_empty() {
+            return String::new();
+        }
+        let sentences: Vec<String> =
+            chosen.iter().map(|own| format!("  start: {}", own.sentence())).collect();
+        let mut words = vec!["lissom import".to_owned(), self.file.display().to_string()];
+        let given = self.positions.iter().map(|(joint, value)| (joint, *value));
+        let all = given.chain(chosen.iter().map(|own| (&own.joint, own.value)));
+        words.extend(all.map(|(joint, value)| format!("--position {joint}={value}")));
+        words.extend(self.floating.then(|| "--floating".to_owned()));
+        let without: Vec<String> = self
+            .without
+            .iter()
+            .filter_map(|part| Some(part.to_possible_value()?.get_name().to_owned()))
+            .collect();
+        words.extend((!without.is_empty()).then(|| format!("--without {}", without.join(","))));
+        words.push(format!("--out {}", out.display()));
+        format!(
+            "{}\nOther positions, after removing the file:\n  {}\n",
+            sentences.join("\n"),
+            words.join(" ")
+        )
     }
 }

@@ -210,10 +210,10 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
     )
     .expect("a robot");
     assert_eq!(robot.left_out, ["speed limits of 1 joint (`velocity`), which are not enforced"]);
-    let refused = model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string();
+    let pose = Pose { values: [("b".to_owned(), 0.03)].into(), ..Pose::default() };
+    let refused = model_text(&robot, &pose, Options::default()).unwrap_err().to_string();
     assert!(refused.contains("must start at 0.02"), "{refused}");
-    let pose = Pose { values: [("b".to_owned(), 0.02)].into(), ..Pose::default() };
-    let text = model_text(&robot, &pose, Options::default()).expect("a model");
+    let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
     for line in [
         "[bodies.left_finger]   # link left finger",
         "mass = 0.2",
@@ -253,7 +253,14 @@ fn shapes_and_meshes_of_links_are_drawn() {
     let text = "<robot name='arm'><link name='base'><visual><geometry><sphere radius='1'/></geometry></visual></link>\
          <link name='upper'><inertial><origin xyz='9 9 9'/><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
          <visual><origin xyz='0.5 0 0' rpy='0 0 1.5707963267948966'/><geometry><box size='0.2 1 0.4'/></geometry></visual>\
-         <visual><geometry><mesh filename='hand.dae'/></geometry></visual></link>\
+         </link>\
+         <link name='hand'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
+         <visual><geometry><mesh filename='hand.dae'/></geometry></visual>\
+         <collision><geometry><box size='0.2 0.4 0.6'/></geometry></collision></link>\
+         <link name='bolt'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
+         <visual><geometry><mesh filename='bolt.dae'/></geometry></visual></link>\
+         <joint name='c' type='continuous'><parent link='base'/><child link='hand'/></joint>\
+         <joint name='d' type='continuous'><parent link='base'/><child link='bolt'/></joint>\
          <link name='tool'><visual><geometry><cylinder radius='0.1' length='2'/></geometry></visual></link>\
          <link name='plate'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
          <visual><geometry><mesh filename='package://arm_description/meshes/plate.stl' scale='0.001 -0.001 0.001'/></geometry></visual></link>\
@@ -268,7 +275,7 @@ fn shapes_and_meshes_of_links_are_drawn() {
     let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
     assert!(
         text.contains(
-            "# Omitted: meshes, which must be STL or glTF files in the folders of the description: hand.dae."
+            "# Omitted: meshes, which must be STL or glTF files in the folders of the description: bolt.dae and 1 more; shapes"
         ),
         "{text}"
     );
@@ -283,6 +290,12 @@ fn shapes_and_meshes_of_links_are_drawn() {
     };
     // The box, turned by a quarter about z, and the cylinder of the tool, which is fixed 2 m away.
     is_near(extent(body("upper")), [[0.0, -0.1, -1.0], [2.1, 0.1, 1.0]]);
+    is_near(extent(body("hand")), [[-0.1, -0.2, -0.3], [0.1, 0.2, 0.3]]);
+    assert!(
+        body("bolt").surface.as_ref().is_some_and(|surface| surface.points.is_empty()),
+        "nothing is drawn of it"
+    );
+    assert!(text.contains("[ground]\nshape = [\n    { kind = \"sphere\""), "the root is drawn: {text}");
     is_near(extent(body("plate")), [[0.0, -0.5, 0.0], [1.0, 0.0, 0.0]]);
 }
 

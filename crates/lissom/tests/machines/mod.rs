@@ -3,6 +3,8 @@
 
 mod gallery;
 mod import;
+mod import_chains;
+mod import_faults;
 mod mjcf;
 mod prescribed_motion;
 mod rolling;

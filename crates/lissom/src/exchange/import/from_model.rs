@@ -36,6 +36,8 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         is_root_the_world: false,
         joints: Vec::new(),
         left_out: Vec::new(),
+        closures: Vec::new(),
+        obstacles: Vec::new(),
         unsupported: Vec::new(),
     };
     let lowered = lower(document).map_err(|report| ImportError::new(report.to_string()))?;
@@ -50,7 +52,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         document.joints.iter().filter(|joint| joint.ports.have_one_location()).collect();
     let is_on_ground = links.iter().any(|joint| ends(joint).contains(&&NodeReference::Ground));
     if is_on_ground || document.bodies.is_empty() {
-        robot.links.push(Link { name: "world".to_owned(), inertia: None, visuals: Vec::new() });
+        robot.links.push(Link::new("world".to_owned(), None, String::new()));
         tree.frames.push(Motion::identity());
     } else {
         let body = &document.bodies[0];
@@ -152,11 +154,8 @@ fn link(body: &Body, offset: &Motion) -> Link {
     let turn = offset.rotation.matrix();
     let inertia = turn * body.inertia * turn.transpose();
     let centre = offset.transform_point(&body.center_of_mass);
-    Link {
-        name: body.name.value.clone(),
-        inertia: Some(LinkInertia { mass: body.mass, centre, inertia }),
-        visuals: Vec::new(),
-    }
+    let inertia = (body.mass > 0.0).then_some(LinkInertia { mass: body.mass, centre, inertia });
+    Link::new(body.name.value.clone(), inertia, String::new())
 }
 
 struct Tree {

@@ -5,21 +5,14 @@ use std::fmt::Write;
 use lissom_motion::Vector3;
 
 use super::model_text::{Options, list};
-use super::{Freedom, RobotJoint};
+use super::{Closure, Freedom, RobotJoint};
 
 /// The coordinate of a robot's joint in the model.
 pub(super) struct Placed {
-    /// Index of the robot's joint.
-    pub(super) index: usize,
     /// Its name in the model.
     pub(super) own: String,
-    /// The joint of the model that has its coordinate; the same for all joints that were replaced by one.
-    pub(super) joint: String,
-    /// Index of the coordinate in that joint, from 1, if there are several.
-    pub(super) coordinate: Option<usize>,
-    /// The coordinate's initial value, and the offset from values of the robot's coordinate [rad, m].
+    /// The coordinate's initial value [rad, m].
     pub(super) value: f64,
-    pub(super) shift: f64,
     /// Its initial rate [rad/s, m/s].
     pub(super) rate: f64,
     /// A point of its axis and its direction at the start, in global axes.
@@ -27,15 +20,9 @@ pub(super) struct Placed {
     pub(super) axis: Vector3,
 }
 
-impl Placed {
-    fn coordinate_line(&self, key: &str) -> String {
-        self.coordinate.map(|number| format!("{key} = {number}\n")).unwrap_or_default()
-    }
-}
-
 /// A single joint between two bodies.
 pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed, [base, tip]: [&str; 2]) {
-    let name = &place.joint;
+    let name = &place.own;
     let (kind, key) = match joint.freedom {
         Freedom::Rotation => ("revolute", "angle"),
         Freedom::Displacement => ("prismatic", "displacement"),
@@ -73,7 +60,7 @@ pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed,
 }
 
 /// The maximum torque and speed of a motor, as comments.
-pub(super) fn write_effort(text: &mut String, joint: &RobotJoint) {
+fn write_effort(text: &mut String, joint: &RobotJoint) {
     if let Some(effort) = joint.effort {
         let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
         let _ =
@@ -96,21 +83,19 @@ pub(super) fn write_resistance(text: &mut String, joint: &RobotJoint, place: &Pl
         Freedom::Displacement => ("axial", "displacement"),
         Freedom::Fixed | Freedom::Ball | Freedom::Floating => return,
     };
-    let (own, coordinate) = (&place.own, place.coordinate_line("coordinate"));
+    let own = &place.own;
     let mut entry = |name: &str, kind: &str, rest: &str| {
-        let _ = write!(
-            text,
-            "\n[springs.{own}_{name}]\nkind = \"{word}{kind}\"\njoint = \"{}\"\n{rest}{coordinate}",
-            place.joint
-        );
+        let _ = write!(text, "\n[springs.{own}_{name}]\nkind = \"{word}{kind}\"\njoint = \"{own}\"\n{rest}");
     };
     if let Some([low, high]) = joint.range.filter(|[low, high]| options.limits && low < high) {
-        let [low, high] = [low + place.shift, high + place.shift];
         entry("limits", "_stop", &format!("range = [{low:?}, {high:?}]\nstiffness = \"stop_stiffness\"\n"));
     }
     if joint.stiffness > 0.0 {
-        let rest = joint.rest + place.shift;
-        entry("stiffness", "", &format!("stiffness = {:?}\n{rest_key} = {rest:?}\n", joint.stiffness));
+        entry(
+            "stiffness",
+            "",
+            &format!("stiffness = {:?}\n{rest_key} = {:?}\n", joint.stiffness, joint.rest),
+        );
     }
     if options.friction && joint.damping > 0.0 {
         entry("damping", "", &format!("damping = {:?}\n", joint.damping));
@@ -142,10 +127,8 @@ pub(super) fn write_rotor(text: &mut String, joint: &RobotJoint, place: &Placed,
         "\n# The armature of {name}: a rotor on the ground that goes with the joint.\n\
          [bodies.{own}_rotor]\nmass = {mass:?}\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}]\nposition = {at}\n{moving}\
          \n[joints.{own}_rotor]\nkind = \"{kind}\"\nbase = \"ground\"\ntip = \"{own}_rotor\"\nat = {at}\naxis = {}\n\
-         \n[joints.{own}_armature]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{own}_rotor\"\nratio = 1.0\nrelative = true\n{}",
+         \n[joints.{own}_armature]\nkind = \"gear\"\njoint = \"{own}\"\nother = \"{own}_rotor\"\nratio = 1.0\nrelative = true\n",
         list(&axis),
-        place.joint,
-        place.coordinate_line("coordinate"),
         name = joint.name.escape_debug(),
     );
 }
@@ -160,11 +143,23 @@ fn across(gravity: &Vector3) -> Vector3 {
 pub(super) fn write_follower(text: &mut String, own: &Placed, leader: &Placed, factor: f64) {
     let _ = write!(
         text,
-        "\n[joints.{}_follows]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{}\"\nratio = {factor:?}\nrelative = true\n{}{}",
-        own.own,
-        leader.joint,
-        own.joint,
-        leader.coordinate_line("coordinate"),
-        own.coordinate_line("other_coordinate"),
+        "\n[joints.{}_follows]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{}\"\nratio = {factor:?}\nrelative = true\n",
+        own.own, leader.own, own.own,
+    );
+}
+
+/// A joint that closes a loop at a point, global axes.
+pub(super) fn write_closure(
+    text: &mut String,
+    name: &str,
+    closure: &Closure,
+    at: &Vector3,
+    [base, tip]: [&str; 2],
+) {
+    let kind = if closure.locks_rotation { "clamp" } else { "spherical" };
+    let _ = write!(
+        text,
+        "\n[joints.{name}]\nkind = \"{kind}\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {}\n",
+        list(at)
     );
 }

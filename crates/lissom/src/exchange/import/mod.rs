@@ -2,11 +2,13 @@
 //! A new format is one file that builds a [`Robot`], and a branch in [`from_description`]. [`from_model`] builds a [`Robot`] from
 //! a model, which [`to_urdf`] writes.
 
-mod chains;
 mod from_model;
+mod include;
 mod joint_text;
+mod massless;
 mod mjcf;
 mod model_text;
+mod start;
 mod to_urdf;
 mod urdf;
 mod visuals;
@@ -14,20 +16,32 @@ mod xml;
 
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
 
 pub use from_model::{ModelRobot, from_model};
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text};
+pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
 pub use visuals::{Visual, VisualShape};
 
-/// Reads a robot from a URDF or MJCF text, distinguished by the root element.
+/// Reads a robot from a URDF or MJCF file. Files that an MJCF includes are looked for in its folder.
 ///
 /// # Errors
-/// If it is neither, or contains elements that a [`Robot`] cannot represent.
+/// If a file cannot be read, or as for [`from_description`].
+pub fn from_file(path: &Path) -> Result<Robot, ImportError> {
+    from_description(&include::with_included(path)?)
+}
+
+/// Reads a robot from a URDF or MJCF text, distinguished by the root element.
+///
+/// Elements that cannot be converted are in [`Robot::obstacles`], so that all are reported at once.
+///
+/// # Errors
+/// If it is neither, or its structure is not that of a robot.
 pub fn from_description(text: &str) -> Result<Robot, ImportError> {
     match xml::root_tag(text)?.as_str() {
         "robot" => from_urdf(text),
@@ -38,6 +52,14 @@ pub fn from_description(text: &str) -> Result<Robot, ImportError> {
             Err(ImportError::new(message))
         }
     }
+}
+
+/// The smallest rotation from z to a unit vector.
+fn from_z(direction: &Vector3) -> Rotation {
+    let across = Vector3::z().cross(direction);
+    let angle = across.norm().atan2(direction.z);
+    // For directions along z the axis is not unique: any perpendicular one is valid.
+    Rotation::about_axis(&across.try_normalize(1e-14).unwrap_or_else(Vector3::x), angle)
 }
 
 /// Bodies in a tree of joints.
@@ -53,11 +75,38 @@ pub struct Robot {
     pub is_root_the_world: bool,
     /// Its joints, each after the parent joint.
     pub joints: Vec<RobotJoint>,
+    /// Joints that close loops.
+    pub closures: Vec<Closure>,
     /// Contents of the description that are omitted from the model, one sentence each.
     pub left_out: Vec<String>,
     /// Elements that act on the robot and cannot be modelled, one sentence each: rejected unless their omission is
     /// requested.
     pub unsupported: Vec<String>,
+    /// Faults of the description, one sentence each: a robot that has any is rejected by [`model_text`].
+    pub obstacles: Vec<String>,
+}
+
+impl Robot {
+    /// The value of a reading; none, and an obstacle, if it failed.
+    fn keep<T>(&mut self, read: Result<T, ImportError>) -> Option<T> {
+        read.map_err(|error| self.obstacles.push(error.message)).ok()
+    }
+}
+
+/// A joint between two links, which closes a loop of the tree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Its name.
+    pub name: String,
+    /// Whether it also locks the rotation, relative to that of the reference position.
+    pub locks_rotation: bool,
+    /// Indices of the two links.
+    pub links: [usize; 2],
+    /// The common point in the frame of the first link [m]; at the reference position the second one has it at the same
+    /// position.
+    pub anchor: Vector3,
+    /// Its location in the description.
+    pub source: String,
 }
 
 /// A link with its inertia; none for a frame without mass.
@@ -69,6 +118,17 @@ pub struct Link {
     pub inertia: Option<LinkInertia>,
     /// What is drawn of it.
     pub visuals: Vec<Visual>,
+    /// Shapes for collisions, which are drawn where no file of `visuals` can be.
+    pub collisions: Vec<Visual>,
+    /// Its location in the description, such as `line 3`; may be empty.
+    pub source: String,
+}
+
+impl Link {
+    /// A link that is not drawn.
+    fn new(name: String, inertia: Option<LinkInertia>, source: String) -> Self {
+        Self { name, inertia, visuals: Vec::new(), collisions: Vec::new(), source }
+    }
 }
 
 /// Mass of a link in its own frame.
@@ -134,6 +194,8 @@ pub struct RobotJoint {
     pub armature: f64,
     /// The joint that it follows by a factor and an offset.
     pub follows: Option<(String, f64, f64)>,
+    /// Its location in the description, such as `line 3`; may be empty.
+    pub source: String,
 }
 
 impl RobotJoint {
@@ -157,6 +219,7 @@ impl RobotJoint {
             friction: 0.0,
             armature: 0.0,
             follows: None,
+            source: String::new(),
         }
     }
 
@@ -188,5 +251,13 @@ pub struct ImportError {
 impl ImportError {
     fn new(message: impl Into<String>) -> Self {
         Self { message: message.into() }
+    }
+
+    /// All obstacles in one error, each on a line of its own if there are several.
+    fn of(obstacles: &[String]) -> Self {
+        match obstacles {
+            [only] => Self::new(only),
+            all => Self::new(format!("{} obstacles:\n  - {}", all.len(), all.join("\n  - "))),
+        }
     }
 }

@@ -12,9 +12,10 @@ use std::fmt::Write;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
 
-use super::chains::{Composite, composites};
-use super::joint_text::{Placed, write_follower, write_joint, write_resistance, write_rotor};
-use super::{Freedom, ImportError, LinkInertia, Pose, Robot};
+use super::joint_text::{Placed, write_closure, write_follower, write_joint, write_resistance, write_rotor};
+use super::massless::{Massless, without_mass};
+use super::start::{Start, prefix};
+use super::{Closure, Freedom, ImportError, LinkInertia, Pose, Robot};
 
 /// Treatment of the root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,6 +64,8 @@ impl Default for Options {
     }
 }
 
+/// Largest distance of the two points of a closure, and entry of its relative rotation [m, 1].
+const CLOSED: f64 = 1e-9;
 /// Stiffness of stops [N m/rad, N/m].
 const STOPS: f64 = 1e4;
 
@@ -76,21 +79,98 @@ struct Group {
     frame: Motion,
     twist: Vector6,
     mass: Option<LinkInertia>,
-    /// Entries of its shape.
-    shapes: Vec<String>,
+    /// Entries of its shape; an empty one draws nothing. None for a link without visuals.
+    shapes: Option<Vec<String>>,
 }
 
-/// The model file of `robot` with its joints at `pose`, with a fixed or floating root.
+impl Group {
+    fn has_mass(&self) -> bool {
+        self.mass.is_some_and(|mass| mass.mass > 0.0)
+    }
+
+    /// The line of its shape in the model file.
+    fn shape_line(&self) -> String {
+        match self.shapes.as_deref() {
+            None => String::new(),
+            Some([]) => "shape = []\n".to_owned(),
+            Some(shapes) => format!("shape = [\n    {},\n]\n", shapes.join(",\n    ")),
+        }
+    }
+}
+
+/// The model file of `robot` with its joints at `pose`, with a fixed or floating root. Links without mass between joints are
+/// bodies without mass.
 ///
 /// # Errors
-/// If a moving link has no mass, if the pose refers to an unknown joint or exceeds a range, or if an element acts on the robot
-/// that cannot be modelled.
+/// All of these at once: [obstacles](Robot::obstacles) of the description, elements that act on the robot and cannot be modelled, joints
+/// that move no mass, links with mass and without inertia, loops that are open, positions that refer to an unknown joint or
+/// exceed a range.
 pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String, ImportError> {
-    check_support(robot, options)?;
-    check_pose(robot, pose, options)?;
+    let start = Start::of(robot, pose, options);
+    let (groups, number, frames) = grouped(robot, &start.pose, options);
+    let mut obstacles = robot.obstacles.clone();
+    obstacles.extend(unsupported(robot, options));
+    obstacles.extend(start.obstacles.iter().cloned());
+    // The bodies of a description with faults are incomplete.
+    if robot.obstacles.is_empty() {
+        obstacles.extend(wrong_masses(robot, &groups, &number, &frames, options));
+        obstacles.extend(open_loops(robot, &frames));
+    }
+    if !obstacles.is_empty() {
+        return Err(ImportError::of(&obstacles));
+    }
     let names = Names::of(robot);
-    let (frames, twists, group_of) =
-        places(robot, pose, if options.root == Root::Floating { pose.root_twist } else { Vector6::zeros() });
+    let mut text = header(robot, options, &start);
+    for group in &groups {
+        write_group(&mut text, group, &names.links[group.link], &robot.links[group.link].name);
+    }
+    let group_name = |link: usize| groups[number[link]].name.as_str();
+    let placed: Vec<Placed> = robot
+        .joints
+        .iter()
+        .enumerate()
+        .map(|(index, joint)| {
+            let (frame, of) = (&frames[joint.child], |all: &BTreeMap<String, f64>, default: f64| {
+                all.get(&joint.name).copied().unwrap_or(default)
+            });
+            Placed {
+                own: names.joints[index].clone(),
+                value: of(&start.pose.values, joint.reference),
+                rate: of(&start.pose.rates, 0.0),
+                at: frame.transform_point(&joint.anchor),
+                axis: frame.rotation.apply(&joint.axis),
+            }
+        })
+        .collect();
+    for (joint, place) in robot.joints.iter().zip(&placed) {
+        write_joint(&mut text, joint, place, [group_name(joint.parent), group_name(joint.child)]);
+    }
+    for (closure, name) in robot.closures.iter().zip(&names.closures) {
+        let [base, tip] = closure.links.map(group_name);
+        // Within one body it is closed anyway.
+        if base != tip {
+            let at = frames[closure.links[0]].transform_point(&closure.anchor);
+            write_closure(&mut text, name, closure, &at, [base, tip]);
+        }
+    }
+    for (joint, place) in robot.joints.iter().zip(&placed) {
+        write_resistance(&mut text, joint, place, options);
+        write_rotor(&mut text, joint, place, &robot.gravity);
+        if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic)
+            && let Some(leader) = robot.joints.iter().position(|own| own.name == *leader)
+        {
+            write_follower(&mut text, place, &placed[leader], *factor);
+        }
+    }
+    text.push_str(&footer(robot, &placed));
+    Ok(text)
+}
+
+/// Links that move as one body, the group of each link, and the frames of all links.
+fn grouped(robot: &Robot, pose: &Pose, options: Options) -> (Vec<Group>, Vec<usize>, Vec<Motion>) {
+    let names = Names::of(robot);
+    let root = if options.root == Root::Floating { pose.root_twist } else { Vector6::zeros() };
+    let (frames, twists, group_of) = places(robot, pose, root);
     let mut groups: Vec<Group> = Vec::new();
     let mut number = vec![0; robot.links.len()];
     for (link, own) in robot.links.iter().enumerate() {
@@ -104,183 +184,139 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
                 frame: frames[link],
                 twist: twists[link],
                 mass: None,
-                shapes: Vec::new(),
+                shapes: None,
             });
         }
         number[link] = number[group_of[link]];
         let group = &mut groups[number[link]];
         let offset = frames[link].relative_to(&frames[group.link]);
-        group.shapes.extend(own.visuals.iter().filter_map(|visual| visual.text(&offset)));
+        if !own.visuals.is_empty() {
+            let drawn = own.drawn().iter().filter_map(|visual| visual.text(&offset));
+            group.shapes.get_or_insert_default().extend(drawn);
+        }
         if let Some(mass) = &own.inertia {
             group.mass = Some(together(group.mass.as_ref(), &carried(mass, &offset)));
         }
     }
-    let massive: Vec<bool> =
-        groups.iter().map(|group| group.mass.is_some_and(|mass| mass.mass > 0.0)).collect();
-    let composites = composites(robot, &frames, &number, &massive)?;
-    let inner: BTreeSet<usize> =
-        composites.iter().flat_map(|composite| composite.inner_groups.iter().copied()).collect();
-    let mut text = header(robot, options);
-    for (_, group) in
-        groups.iter().enumerate().filter(|(number, group)| group.name != "ground" && !inner.contains(number))
-    {
-        let link = &robot.links[group.link].name;
-        let mass = group.mass.filter(|mass| mass.mass > 0.0).ok_or_else(|| {
-            ImportError::new(format!(
-                "link `{link}` moves, but neither it nor the links fixed to it have mass: add an <inertial>, or fix it"
-            ))
-        })?;
-        write_body(&mut text, group, &mass, names.links[group.link] != *link, link);
-    }
-    let group_name = |link: usize| groups[number[link]].name.as_str();
-    let placed: Vec<Placed> = (0..robot.joints.len())
-        .map(|index| placed(robot, pose, &names, &composites, (index, &frames)))
-        .collect();
-    for (joint, place) in robot.joints.iter().zip(&placed) {
-        let composite = composites.iter().find(|composite| composite.joints.contains(&place.index));
-        match composite {
-            Some(composite) if composite.joints.last() == Some(&place.index) => {
-                let base = robot.joints[composite.joints[0]].parent;
-                composite.write(
-                    &mut text,
-                    &robot.joints,
-                    &place.joint,
-                    [group_name(base), group_name(joint.child)],
-                    &placed,
-                );
-            }
-            Some(_) => {}
-            None => write_joint(&mut text, joint, place, [group_name(joint.parent), group_name(joint.child)]),
-        }
-    }
-    for (joint, place) in robot.joints.iter().zip(&placed) {
-        write_resistance(&mut text, joint, place, options);
-        write_rotor(&mut text, joint, place, &robot.gravity);
-        if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic) {
-            let leader = robot.joints.iter().position(|own| own.name == *leader).ok_or_else(|| {
-                ImportError::new(format!("a joint mimics `{leader}`, which does not exist"))
-            })?;
-            write_follower(&mut text, place, &placed[leader], *factor);
-        }
-    }
-    text.push_str(&footer(robot, &placed));
-    Ok(text)
+    (groups, number, frames)
 }
 
-/// The coordinate of a robot's joint in the model.
-fn placed(
+/// Joints that move no mass, and masses without inertia.
+fn wrong_masses(
     robot: &Robot,
-    pose: &Pose,
-    names: &Names,
-    composites: &[Composite],
-    (index, frames): (usize, &[Motion]),
-) -> Placed {
-    let joint = &robot.joints[index];
-    let frame = &frames[joint.child];
-    let value = pose.values.get(&joint.name).copied().unwrap_or(joint.reference);
-    let own = names.joints[index].clone();
-    let of = composites.iter().find(|composite| composite.joints.contains(&index));
-    let (joint_name, coordinate) = match of {
-        // A joint that replaces several has the name of the last one.
-        Some(composite) => {
-            let last = composite.joints[composite.joints.len() - 1];
-            (names.joints[last].clone(), composite.coordinate(index))
+    groups: &[Group],
+    number: &[usize],
+    frames: &[Motion],
+    options: Options,
+) -> Vec<String> {
+    let moving = || groups.iter().filter(|group| group.name != "ground");
+    let mut obstacles = Vec::new();
+    for group in moving().filter(|group| group.has_mass()) {
+        let moments = group.mass.map_or_else(Vector3::zeros, |mass| {
+            (0.5 * (mass.inertia + mass.inertia.transpose())).symmetric_eigenvalues()
+        });
+        if moments.min() <= 0.0 {
+            // The link that has the mass may be one that is fixed to the body.
+            let own = (0..robot.links.len()).find(|&link| {
+                number[link] == number[group.link]
+                    && robot.links[link].inertia.is_some_and(|own| own.mass > 0.0)
+            });
+            let link = &robot.links[own.unwrap_or(group.link)];
+            obstacles.push(format!(
+                "{}link `{}` has the mass {:?} kg, but principal moments of inertia that are not positive, {}: \
+                 correct its inertia, for example 2/5 m r² for a ball",
+                prefix(&link.source),
+                link.name,
+                group.mass.map_or(0.0, |mass| mass.mass),
+                list(&moments)
+            ));
         }
-        None => (own.clone(), None),
-    };
-    // Joints without an initial value have the zero of their coordinates at the start.
-    let start = if of.is_some_and(Composite::counts_from_the_start) { 0.0 } else { value };
-    Placed {
-        index,
-        own,
-        joint: joint_name,
-        coordinate,
-        value: start,
-        shift: start - value,
-        rate: pose.rates.get(&joint.name).copied().unwrap_or(0.0),
-        at: frame.transform_point(&joint.anchor),
-        axis: frame.rotation.apply(&joint.axis),
     }
+    // Loops may constrain links without mass further; the initial state of the model shows whether they do.
+    if moving().all(Group::has_mass) || !robot.closures.is_empty() {
+        return obstacles;
+    }
+    let bodies: Vec<usize> = moving().filter(|group| group.has_mass()).map(|group| group.link).collect();
+    let mut alone = BTreeSet::new();
+    for massless in without_mass(robot, frames, &bodies, options.mimic) {
+        match massless {
+            Massless::Alone(index) if alone.insert(index) => {
+                let (joint, link) = (&robot.joints[index], &robot.links[robot.joints[index].child]);
+                obstacles.push(format!(
+                    "{}link `{}` moves, but neither it nor the links fixed to it have mass, nor those that joint `{}` moves: add an \
+                     <inertial>, or fix it",
+                    prefix(&link.source),
+                    link.name,
+                    joint.name
+                ));
+            }
+            Massless::Alone(_) => {}
+            Massless::Together(joints) => {
+                let first = joints.first().map_or("", |&index| robot.joints[index].source.as_str());
+                let names: Vec<String> =
+                    joints.iter().map(|&index| format!("`{}`", robot.joints[index].name)).collect();
+                obstacles.push(format!(
+                    "{}the joints {} can move together in this position without moving a mass: their axes repeat each other. Remove \
+                     one, add mass to a link between them, or start from another position",
+                    prefix(first),
+                    names.join(", ")
+                ));
+            }
+        }
+    }
+    obstacles
 }
 
-/// Rejects elements that cannot be modelled.
-fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
+/// Closures whose two points or frames differ at the start.
+fn open_loops(robot: &Robot, frames: &[Motion]) -> Vec<String> {
+    let (reference, _, _) = places(robot, &Pose::default(), Vector6::zeros());
+    let is_open = |closure: &&Closure| {
+        let [one, other] = closure.links;
+        let anchor = Motion::translation(closure.anchor);
+        let wanted = reference[other].inverse() * reference[one] * anchor;
+        let found = frames[other].inverse() * frames[one] * anchor;
+        let turned = (found.rotation.matrix() - wanted.rotation.matrix()).amax();
+        (found.position - wanted.position).norm() > CLOSED || closure.locks_rotation && turned > CLOSED
+    };
+    let sentence = |closure: &Closure| {
+        format!(
+            "{}the loop of `{}` is open at these start positions: give those at which it is closed by `--position`",
+            prefix(&closure.source),
+            closure.name
+        )
+    };
+    robot.closures.iter().filter(is_open).map(sentence).collect()
+}
+
+/// Elements that act on the robot and cannot be modelled.
+fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
+    let mut obstacles = Vec::new();
     if robot.is_root_the_world && options.root == Root::Floating {
-        return Err(ImportError::new(
-            "the root of this description is the world, which cannot move: free bodies must have a <freejoint/>",
-        ));
-    }
-    if options.unsupported == Unsupported::Refused && !robot.unsupported.is_empty() {
-        let message = format!(
-            "the model would move otherwise than the robot: {}; take it out of the description, or leave it out by `--without \
-             unsupported`",
-            robot.unsupported.join("; ")
+        obstacles.push(
+            "the root of this description is the world, which cannot move: free bodies must have a <freejoint/>".to_owned(),
         );
-        return Err(ImportError::new(message));
+    }
+    if options.unsupported == Unsupported::Refused {
+        obstacles.extend(robot.unsupported.iter().map(|what| {
+            format!(
+                "{what}: the model would move otherwise than the robot; remove it from the description, or omit it by `--without \
+                 unsupported`"
+            )
+        }));
     }
     for joint in robot.joints.iter().filter(|joint| !joint.moves()) {
+        let name = format!("{}joint `{}`", prefix(&joint.source), joint.name);
         if options.limits && joint.range.is_some() {
-            let message = format!(
-                "joint `{}`: limits of a ball joint are not supported: use `--without limits`",
-                joint.name
-            );
-            return Err(ImportError::new(message));
+            obstacles
+                .push(format!("{name}: limits of a ball joint are not supported: use `--without limits`"));
         }
         if options.friction && (joint.damping > 0.0 || joint.friction > 0.0) {
-            let message = format!(
-                "joint `{}`: damping and friction of ball and free joints are not supported: use `--without friction`",
-                joint.name
-            );
-            return Err(ImportError::new(message));
+            obstacles.push(format!(
+                "{name}: damping and friction of ball and free joints are not supported: use `--without friction`"
+            ));
         }
     }
-    Ok(())
-}
-
-/// Rejects values for unknown joints or beyond a limit, and values of mimic joints that contradict their leader.
-fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), ImportError> {
-    for name in pose.values.keys().chain(pose.rates.keys()) {
-        if !robot.joints.iter().any(|joint| joint.name == *name && joint.moves()) {
-            let known: Vec<&str> =
-                robot.joints.iter().filter(|joint| joint.moves()).map(|joint| joint.name.as_str()).collect();
-            let message =
-                format!("there is no moving joint `{name}`; moving joints are {}", known.join(", "));
-            return Err(ImportError::new(message));
-        }
-    }
-    let reference = |name: &str| {
-        robot.joints.iter().find(|joint| joint.name == name).map_or(0.0, |joint| joint.reference)
-    };
-    let value = |of: &BTreeMap<String, f64>, name: &str| {
-        let default = if std::ptr::eq(of, &raw const pose.values) { reference(name) } else { 0.0 };
-        of.get(name).copied().unwrap_or(default)
-    };
-    for joint in robot.joints.iter().filter(|joint| joint.moves()) {
-        let own = value(&pose.values, &joint.name);
-        if let Some([low, high]) = joint.range.filter(|_| options.limits)
-            && !(low..=high).contains(&own)
-        {
-            let message = format!(
-                "joint `{}` starts at {own}, outside of its limits {low} … {high}: give it another value at the start, or \
-                 leave limits out",
-                joint.name
-            );
-            return Err(ImportError::new(message));
-        }
-        if let Some((leader, factor, offset)) = joint.follows.as_ref().filter(|_| options.mimic) {
-            for (of, offset) in [(&pose.values, *offset), (&pose.rates, 0.0)] {
-                let (own, wanted) = (value(of, &joint.name), factor * value(of, leader) + offset);
-                if (own - wanted).abs() > 1e-9 * (1.0 + wanted.abs()) {
-                    let message = format!(
-                        "joint `{}` mimics `{leader}` and must start at {wanted}, not {own}: specify this value",
-                        joint.name
-                    );
-                    return Err(ImportError::new(message));
-                }
-            }
-        }
-    }
-    Ok(())
+    obstacles
 }
 
 /// Initial frames and twists of all links, and the link at the root of the group of each.
@@ -343,6 +379,7 @@ pub(super) fn together(one: Option<&LinkInertia>, other: &LinkInertia) -> LinkIn
 struct Names {
     links: Vec<String>,
     joints: Vec<String>,
+    closures: Vec<String>,
 }
 
 impl Names {
@@ -351,7 +388,8 @@ impl Names {
         let links = robot.links.iter().map(|link| free_name(&link.name, &mut taken)).collect();
         let mut taken = BTreeSet::new();
         let joints = robot.joints.iter().map(|joint| free_name(&joint.name, &mut taken)).collect();
-        Self { links, joints }
+        let closures = robot.closures.iter().map(|own| free_name(&own.name, &mut taken)).collect();
+        Self { links, joints, closures }
     }
 }
 
@@ -368,7 +406,7 @@ fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     free
 }
 
-fn header(robot: &Robot, options: Options) -> String {
+fn header(robot: &Robot, options: Options, start: &Start) -> String {
     let title = robot.name.replace('\\', "\\\\").replace('"', "\\\"");
     let mut text = String::new();
     // Writing to a string cannot fail.
@@ -385,6 +423,9 @@ fn header(robot: &Robot, options: Options) -> String {
     {
         let _ = write!(text, "\n# Omitted: {}.", what.escape_debug());
     }
+    for chosen in &start.chosen {
+        let _ = write!(text, "\n# {}.", chosen.sentence().escape_debug());
+    }
     text.push('\n');
     if options.limits && robot.joints.iter().any(|joint| joint.range.is_some()) {
         let _ = write!(text, "\n[parameters]\nstop_stiffness = {STOPS:?}\n");
@@ -394,11 +435,8 @@ fn header(robot: &Robot, options: Options) -> String {
 
 fn footer(robot: &Robot, placed: &[Placed]) -> String {
     let mut text = String::new();
-    let mut recorded = BTreeSet::new();
-    for (joint, place) in robot.joints.iter().zip(placed) {
-        if joint.moves() && recorded.insert(&place.joint) {
-            let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.joint);
-        }
+    for place in robot.joints.iter().zip(placed).filter(|(joint, _)| joint.moves()).map(|(_, place)| place) {
+        let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.own);
     }
     text + "\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\nend = 1.0\n"
 }
@@ -409,24 +447,35 @@ pub(super) fn list(vector: &Vector3) -> String {
     format!("[{x:?}, {y:?}, {z:?}]")
 }
 
-fn write_body(text: &mut String, group: &Group, mass: &LinkInertia, renamed: bool, link: &str) {
-    let note = if renamed { format!("   # link {}", link.escape_debug()) } else { String::new() };
-    // Exactly symmetric, as required for a matrix of inertia.
-    let inertia = 0.5 * (mass.inertia + mass.inertia.transpose());
-    let rows: Vec<String> = (0..3).map(|k| list(&inertia.row(k).transpose())).collect();
-    let _ = write!(
-        text,
-        "\n[bodies.{}]{note}\nmass = {:?}\ninertia = [{}]\ncenter_of_mass = {}\nposition = {}\nrotation = {}\n",
-        group.name,
-        mass.mass,
-        rows.join(", "),
-        list(&mass.centre),
-        list(&group.frame.position),
-        list(&group.frame.rotation.logarithm()),
-    );
-    if !group.shapes.is_empty() {
-        let _ = write!(text, "shape = [\n    {},\n]\n", group.shapes.join(",\n    "));
+/// A body, or the shape of the ground; `own` is its name in the model, `link` in the description.
+fn write_group(text: &mut String, group: &Group, own: &str, link: &str) {
+    if group.name == "ground" {
+        if group.shapes.as_ref().is_some_and(|shapes| !shapes.is_empty()) {
+            let _ = write!(text, "\n[ground]\n{}", group.shape_line());
+        }
+        return;
     }
+    let note = if own == link { String::new() } else { format!("   # link {}", link.escape_debug()) };
+    let _ = write!(text, "\n[bodies.{}]{note}\n", group.name);
+    match group.mass.filter(|_| group.has_mass()) {
+        Some(mass) => {
+            // Exactly symmetric, as required for a matrix of inertia.
+            let inertia = 0.5 * (mass.inertia + mass.inertia.transpose());
+            let rows: Vec<String> = (0..3).map(|k| list(&inertia.row(k).transpose())).collect();
+            let _ = write!(
+                text,
+                "mass = {:?}\ninertia = [{}]\ncenter_of_mass = {}\n",
+                mass.mass,
+                rows.join(", "),
+                list(&mass.centre)
+            );
+        }
+        // A frame between joints.
+        None => text.push_str("mass = 0\ninertia = [0, 0, 0]\n"),
+    }
+    let rotation = list(&group.frame.rotation.logarithm());
+    let _ = write!(text, "position = {}\nrotation = {rotation}\n", list(&group.frame.position));
+    text.push_str(&group.shape_line());
     if group.twist != Vector6::zeros() {
         let velocity = group.frame.rotation.apply(&translation_part(&group.twist));
         let angular = rotation_part(&group.twist);

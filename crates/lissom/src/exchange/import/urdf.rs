@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use roxmltree::Node;
 
-use super::xml::{self, children, line};
-use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, Visual, VisualShape};
+use super::xml::{self, children, location};
+use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, Visual, VisualShape, from_z};
 
 /// Gravity as in ROS [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
@@ -26,7 +26,11 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         let message = format!("this is not URDF: its root is <{}>, not <robot>", root.tag_name().name());
         return Err(ImportError::new(message));
     }
-    let links = children(root, "link").map(link).collect::<Result<Vec<_>, _>>()?;
+    let mut notes = Notes { left_out: left_out(root), ..Notes::default() };
+    let mut links = Vec::new();
+    for node in children(root, "link") {
+        links.push(link(node, &mut notes.obstacles)?);
+    }
     let mut numbers = BTreeMap::new();
     for (number, link) in links.iter().enumerate() {
         if numbers.insert(link.name.clone(), number).is_some() {
@@ -35,23 +39,67 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     }
     // Transmissions and simulators have elements of the same name elsewhere: only those of the robot itself are
     // joints.
-    let joints = children(root, "joint").map(|node| joint(node, &numbers)).collect::<Result<Vec<_>, _>>()?;
+    let mut joints = Vec::new();
+    for node in children(root, "joint") {
+        joints.push(joint(node, &numbers, &mut notes)?);
+    }
+    let Notes { obstacles, mut left_out, planar } = notes;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    let mut left_out = left_out(root);
     let limited = joints.iter().filter(|joint| joint.speed.is_some()).count();
     if limited > 0 {
         let joints = if limited == 1 { "1 joint".to_owned() } else { format!("{limited} joints") };
         left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
     }
-    in_order(Robot {
+    let robot = in_order(Robot {
         name,
         gravity: GRAVITY,
         links,
         is_root_the_world: false,
         joints,
+        closures: Vec::new(),
         left_out,
         unsupported: Vec::new(),
-    })
+        obstacles,
+    })?;
+    Ok(with_planar_joints(robot, &planar))
+}
+
+/// What is found besides links and joints.
+#[derive(Default)]
+struct Notes {
+    obstacles: Vec<String>,
+    left_out: Vec<String>,
+    /// Names of planar joints.
+    planar: BTreeSet<String>,
+}
+
+/// Splits planar joints into two displacements in their plane and the rotation about its normal, through links without mass. The
+/// rotation has the name of the joint, the displacements `_x` and `_y` behind it: along the axes that the smallest rotation
+/// from z to the normal makes of x and y.
+fn with_planar_joints(mut robot: Robot, planar: &BTreeSet<String>) -> Robot {
+    let mut all = Vec::new();
+    for joint in std::mem::take(&mut robot.joints) {
+        if !planar.contains(&joint.name) {
+            all.push(joint);
+            continue;
+        }
+        let turn = from_z(&joint.axis);
+        let (mut parent, mut origin) = (joint.parent, joint.origin);
+        for (letter, axis) in [("x", Vector3::x()), ("y", Vector3::y())] {
+            let (name, source) = (format!("{}_{letter}", joint.name), joint.source.clone());
+            let child = robot.links.len();
+            robot.links.push(Link::new(
+                format!("{} behind {name}", robot.links[joint.child].name),
+                None,
+                source.clone(),
+            ));
+            let slide = RobotJoint::new(name, Freedom::Displacement, parent, child, origin);
+            all.push(RobotJoint { axis: turn.apply(&axis), source, ..slide });
+            (parent, origin) = (child, Motion::identity());
+        }
+        all.push(RobotJoint { parent, origin, ..joint });
+    }
+    Robot { joints: all, ..robot }
 }
 
 /// Contents that are omitted from the model.
@@ -131,7 +179,7 @@ fn child<'a>(node: Node<'a, 'a>, tag: &'static str) -> Option<Node<'a, 'a>> {
 
 fn name(node: Node<'_, '_>) -> Result<String, ImportError> {
     let missing =
-        || ImportError::new(format!("line {}: <{}> has no name", line(node), node.tag_name().name()));
+        || ImportError::new(format!("{}: <{}> has no name", location(node), node.tag_name().name()));
     node.attribute("name").map(str::to_owned).ok_or_else(missing)
 }
 
@@ -139,7 +187,7 @@ fn name(node: Node<'_, '_>) -> Result<String, ImportError> {
 fn numbers<const N: usize>(node: Node<'_, '_>, key: &str) -> Result<Option<[f64; N]>, ImportError> {
     let Some(text) = node.attribute(key) else { return Ok(None) };
     xml::finite_numbers(text).and_then(|values| values.try_into().ok()).map(Some).ok_or_else(|| {
-        let message = format!("line {}: `{key}` must be {N} finite numbers, not `{text}`", line(node));
+        let message = format!("{}: `{key}` must be {N} finite numbers, not `{text}`", location(node));
         ImportError::new(message)
     })
 }
@@ -150,7 +198,7 @@ fn number(node: Node<'_, '_>, key: &str) -> Result<Option<f64>, ImportError> {
 
 fn required(node: Node<'_, '_>, key: &str) -> Result<f64, ImportError> {
     number(node, key)?.ok_or_else(|| {
-        ImportError::new(format!("line {}: <{}> has no `{key}`", line(node), node.tag_name().name()))
+        ImportError::new(format!("{}: <{}> has no `{key}`", location(node), node.tag_name().name()))
     })
 }
 
@@ -165,12 +213,33 @@ fn origin(node: Node<'_, '_>) -> Result<Motion, ImportError> {
     Ok(Motion::new(rotation, position))
 }
 
-fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
+/// A link; what is wrong with it becomes an obstacle.
+fn link(node: Node<'_, '_>, obstacles: &mut Vec<String>) -> Result<Link, ImportError> {
     let name = name(node)?;
-    let visuals = children(node, "visual").map(|node| visual(node, &name)).collect::<Result<Vec<_>, _>>()?;
-    let visuals = visuals.into_iter().flatten().collect();
-    let Some(inertial) = child(node, "inertial") else { return Ok(Link { name, inertia: None, visuals }) };
-    let missing = |tag: &str| ImportError::new(format!("link `{name}`: its <inertial> has no <{tag}>"));
+    let mut keep = |error: ImportError| obstacles.push(error.message);
+    let mut shapes = |tag: &'static str| -> Vec<Visual> {
+        children(node, tag)
+            .filter_map(|own| {
+                visual(own, &name).unwrap_or_else(|error| {
+                    keep(error);
+                    None
+                })
+            })
+            .collect()
+    };
+    let (visuals, collisions) = (shapes("visual"), shapes("collision"));
+    let inertia = inertia(node, &name).unwrap_or_else(|error| {
+        keep(error);
+        None
+    });
+    Ok(Link { name, inertia, visuals, collisions, source: location(node) })
+}
+
+fn inertia(node: Node<'_, '_>, name: &str) -> Result<Option<LinkInertia>, ImportError> {
+    let Some(inertial) = child(node, "inertial") else { return Ok(None) };
+    let fault =
+        |message: String| ImportError::new(format!("{}: link `{name}`: {message}", location(inertial)));
+    let missing = |tag: &str| fault(format!("its <inertial> has no <{tag}>"));
     let mass = required(child(inertial, "mass").ok_or_else(|| missing("mass"))?, "value")?;
     let tensor = child(inertial, "inertia").ok_or_else(|| missing("inertia"))?;
     let [xx, yy, zz] = [required(tensor, "ixx")?, required(tensor, "iyy")?, required(tensor, "izz")?];
@@ -180,22 +249,26 @@ fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
         number(tensor, "iyz")?.unwrap_or(0.0),
     ];
     if mass < 0.0 {
-        return Err(ImportError::new(format!("link `{name}` has a negative mass, {mass} kg")));
+        return Err(fault(format!("its mass is negative, {mass} kg")));
     }
     let frame = origin(inertial)?;
     let turn = frame.rotation.matrix();
     let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     if mass == 0.0 && own.iter().all(|value| *value == 0.0) {
-        return Ok(Link { name, inertia: None, visuals });
+        return Ok(None);
     }
     let inertia = turn * own * turn.transpose();
-    Ok(Link { name, inertia: Some(LinkInertia { mass, centre: frame.position, inertia }), visuals })
+    Ok(Some(LinkInertia { mass, centre: frame.position, inertia }))
 }
 
 /// What is drawn of a link; none for a geometry that the format does not define.
 fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError> {
     let Some(geometry) = child(node, "geometry") else {
-        return Err(ImportError::new(format!("link `{link}`: a <visual> has no <geometry>")));
+        let tag = node.tag_name().name();
+        return Err(ImportError::new(format!(
+            "{}: link `{link}`: its <{tag}> has no <geometry>",
+            location(node)
+        )));
     };
     let attribute = |node, key: &str| {
         let missing = || ImportError::new(format!("link `{link}`: the shape of its <visual> has no `{key}`"));
@@ -228,27 +301,47 @@ fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError>
     Ok(Some(Visual { shape, origin: origin(node)? }))
 }
 
-fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoint, ImportError> {
+/// A joint; what is wrong with it, except its links, becomes an obstacle.
+fn joint(
+    node: Node<'_, '_>,
+    links: &BTreeMap<String, usize>,
+    notes: &mut Notes,
+) -> Result<RobotJoint, ImportError> {
     let name = name(node)?;
-    let fault = |message: String| ImportError::new(format!("joint `{name}`: {message}"));
-    let kind = node.attribute("type").ok_or_else(|| fault("it has no `type`".to_owned()))?;
-    let freedom = match kind {
-        "fixed" => Freedom::Fixed,
-        "revolute" | "continuous" => Freedom::Rotation,
-        "prismatic" => Freedom::Displacement,
-        "floating" => Freedom::Floating,
-        other => {
-            return Err(fault(format!(
-                "its type `{other}` is unknown: it must be fixed, revolute, continuous, prismatic or floating"
-            )));
-        }
-    };
     let end = |tag: &'static str| {
+        let fault =
+            |message: String| ImportError::new(format!("{}: joint `{name}`: {message}", location(node)));
         let link = child(node, tag).and_then(|node| node.attribute("link"));
         let link = link.ok_or_else(|| fault(format!("it has no <{tag} link=…>")))?;
         links.get(link).copied().ok_or_else(|| fault(format!("there is no link `{link}`")))
     };
-    let (parent, child_link) = (end("parent")?, end("child")?);
+    let ends = [end("parent")?, end("child")?];
+    Ok(moving(node, &name, ends, notes).unwrap_or_else(|error| {
+        notes.obstacles.push(error.message);
+        RobotJoint::new(name, Freedom::Fixed, ends[0], ends[1], Motion::identity())
+    }))
+}
+
+fn moving(
+    node: Node<'_, '_>,
+    name: &str,
+    [parent, child_link]: [usize; 2],
+    notes: &mut Notes,
+) -> Result<RobotJoint, ImportError> {
+    let source = location(node);
+    let fault = |message: String| ImportError::new(format!("{source}: joint `{name}`: {message}"));
+    let kind = node.attribute("type").ok_or_else(|| fault("it has no `type`".to_owned()))?;
+    let freedom = match kind {
+        "fixed" => Freedom::Fixed,
+        "revolute" | "continuous" | "planar" => Freedom::Rotation,
+        "prismatic" => Freedom::Displacement,
+        "floating" => Freedom::Floating,
+        other => {
+            return Err(fault(format!(
+                "its type `{other}` is unknown: it must be fixed, revolute, continuous, prismatic, planar or floating"
+            )));
+        }
+    };
     let axis = match child(node, "axis") {
         Some(node) => Vector3::from(numbers::<3>(node, "xyz")?.unwrap_or([1.0, 0.0, 0.0])),
         None => Vector3::x(),
@@ -264,7 +357,11 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
     if let Some(limit) = limit {
         effort = number(limit, "effort")?;
         speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
-        if kind != "continuous" {
+        if kind == "planar" {
+            notes.left_out.push(format!(
+                "limits of the planar joint `{name}` ({source}), which the format does not define"
+            ));
+        } else if kind != "continuous" {
             // Default zero, as specified by the format.
             let ends = [number(limit, "lower")?.unwrap_or(0.0), number(limit, "upper")?.unwrap_or(0.0)];
             if ends[0] > ends[1] {
@@ -287,7 +384,24 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
             Some((leader.to_owned(), factor, number(mimic, "offset")?.unwrap_or(0.0)))
         }
     };
-    let (damping, friction) = (of_dynamics("damping")?, of_dynamics("friction")?);
-    let joint = RobotJoint::new(name, freedom, parent, child_link, origin(node)?);
-    Ok(RobotJoint { axis, range, effort, speed, damping, friction, follows, ..joint })
+    let (mut damping, mut friction) = (of_dynamics("damping")?, of_dynamics("friction")?);
+    let resists = damping > 0.0 || friction > 0.0;
+    if freedom == Freedom::Fixed && resists {
+        notes
+            .left_out
+            .push(format!("damping and friction of the fixed joint `{name}` ({source}), which cannot move"));
+        (damping, friction) = (0.0, 0.0);
+    }
+    if kind == "planar" {
+        notes.planar.insert(name.to_owned());
+    }
+    if kind == "planar" && (resists || follows.is_some()) {
+        return Err(fault(
+            "<dynamics> and <mimic> of a planar joint are not defined: write two prismatic joints and a \
+             continuous one, with their own"
+                .to_owned(),
+        ));
+    }
+    let joint = RobotJoint::new(name.to_owned(), freedom, parent, child_link, origin(node)?);
+    Ok(RobotJoint { axis, range, effort, speed, damping, friction, follows, source, ..joint })
 }

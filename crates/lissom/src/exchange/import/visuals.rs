@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use lissom_model::toml_text::quoted;
 use lissom_motion::{Motion, Vector3};
 
-use super::Robot;
 use super::model_text::list;
+use super::{Link, Robot};
 
 /// Formats of meshes that can be drawn.
 const DRAWN: [&str; 3] = ["stl", "gltf", "glb"];
@@ -47,6 +47,14 @@ pub enum VisualShape {
 }
 
 impl Visual {
+    /// The name of its file if it cannot be drawn.
+    fn file(&self) -> Option<&str> {
+        match &self.shape {
+            VisualShape::Mesh { name, path: None, .. } => Some(name),
+            _ => None,
+        }
+    }
+
     /// The entry of a body's `shape`, in the frame of the body; none for a mesh that is not drawn.
     pub(super) fn text(&self, link_in_body: &Motion) -> Option<String> {
         let mut text = match &self.shape {
@@ -71,6 +79,19 @@ impl Visual {
     }
 }
 
+impl Link {
+    /// Shapes that are drawn: those for collisions if a file of the visuals cannot be.
+    pub(super) fn drawn(&self) -> &[Visual] {
+        let is_drawn = |visual: &Visual| visual.file().is_none();
+        let replaces = !self.visuals.iter().all(is_drawn) && self.collisions.iter().any(is_drawn);
+        if replaces { &self.collisions } else { &self.visuals }
+    }
+
+    fn shapes_mut(&mut self) -> impl Iterator<Item = &mut Visual> {
+        self.visuals.iter_mut().chain(&mut self.collisions)
+    }
+}
+
 impl Robot {
     /// Looks for the files of meshes: beside the `description`, or for `package://name/…` in a folder `name` around it. Those that
     /// are found in a format that can be drawn are named relative to the folder of the `model` file, or absolutely if they are
@@ -82,7 +103,7 @@ impl Robot {
             folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
         };
         let (around, of_model) = (folder(description), folder(model));
-        for visual in self.links.iter_mut().flat_map(|link| &mut link.visuals) {
+        for visual in self.links.iter_mut().flat_map(Link::shapes_mut) {
             let VisualShape::Mesh { name, path, .. } = &mut visual.shape else { continue };
             *path = found(name, &around).map(|file| {
                 let named = file.strip_prefix(&of_model).unwrap_or(&file);
@@ -93,18 +114,15 @@ impl Robot {
 
     /// The meshes that are not drawn, in a sentence.
     pub fn meshes_left_out(&self) -> Option<String> {
-        let names =
-            self.links.iter().flat_map(|link| &link.visuals).filter_map(|visual| match &visual.shape {
-                VisualShape::Mesh { name, path: None, .. } => Some(name.as_str()),
-                _ => None,
-            });
-        let mut names: Vec<&str> = names.collect();
+        let mut names: Vec<&str> =
+            self.links.iter().flat_map(|link| &link.visuals).filter_map(Visual::file).collect();
         names.sort_unstable();
         names.dedup();
         let first = names.first()?;
         let more = if names.len() > 1 { format!(" and {} more", names.len() - 1) } else { String::new() };
         Some(format!(
-            "meshes, which must be STL or glTF files in the folders of the description: {first}{more}"
+            "meshes, which must be STL or glTF files in the folders of the description: {first}{more}; shapes for collisions are drawn \
+             instead, or nothing"
         ))
     }
 }

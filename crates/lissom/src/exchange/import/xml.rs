@@ -19,9 +19,24 @@ pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'static str) -> impl Iterat
     node.children().filter(move |child| child.has_tag_name(tag))
 }
 
-/// Line of the text at which an element begins.
-pub(super) fn line(node: Node<'_, '_>) -> u32 {
-    node.document().text_pos_at(node.range().start).row
+/// Target of a processing instruction after which the text is that of another file, from a line on: `line file`, without a
+/// file for that of the robot.
+pub(super) const SOURCE: &str = "lissom-source";
+
+/// Location at which an element begins, such as `line 3`, or `line 3 of legs.xml` for an included file.
+pub(super) fn location(node: Node<'_, '_>) -> String {
+    let before = &node.document().input_text()[..node.range().start];
+    let lines = |text: &str| text.matches('\n').count();
+    let marked = before.rsplit_once(&format!("<?{SOURCE} ")).and_then(|(_, marked)| {
+        let (own, since) = marked.split_once("?>")?;
+        let (line, file) = own.split_once(' ')?;
+        Some((line.parse::<usize>().ok()? + lines(since), file))
+    });
+    match marked {
+        Some((line, file)) if !file.is_empty() => format!("line {line} of {file}"),
+        Some((line, _)) => format!("line {line}"),
+        None => format!("line {}", 1 + lines(before)),
+    }
 }
 
 /// The numbers of a text, if all are finite.

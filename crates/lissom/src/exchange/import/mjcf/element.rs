@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use roxmltree::Node;
 
 use super::super::ImportError;
-use super::super::xml::{finite_numbers, line};
+use super::super::xml::{finite_numbers, location};
 
 type Attributes = BTreeMap<String, String>;
 
@@ -46,7 +46,7 @@ impl Classes {
         }
         for inner in elements().filter(|element| element.has_tag_name("default")) {
             let name = inner.attribute("class").ok_or_else(|| {
-                ImportError::new(format!("line {}: a <default> within another has no class", line(inner)))
+                ImportError::new(format!("{}: a <default> within another has no class", location(inner)))
             })?;
             self.add(inner, name, by_tag.clone())?;
         }
@@ -63,19 +63,19 @@ impl Classes {
             Some(by_tag) => by_tag.get(tag).cloned().unwrap_or_default(),
             None if class == self.main => Attributes::new(),
             None => {
-                let message = format!("line {}: there is no default class `{class}`", line(node));
+                let message = format!("{}: there is no default class `{class}`", location(node));
                 return Err(ImportError::new(message));
             }
         };
         attributes.extend(node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())));
-        Ok(Element { tag: tag.to_owned(), line: line(node), attributes })
+        Ok(Element { tag: tag.to_owned(), location: location(node), attributes })
     }
 }
 
 /// An element.
 pub(super) struct Element {
     tag: String,
-    line: u32,
+    location: String,
     attributes: Attributes,
 }
 
@@ -84,13 +84,29 @@ impl Element {
     pub(super) fn bare(node: Node<'_, '_>) -> Self {
         let attributes =
             node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())).collect();
-        Self { tag: node.tag_name().name().to_owned(), line: line(node), attributes }
+        Self { tag: node.tag_name().name().to_owned(), location: location(node), attributes }
+    }
+
+    /// Elements of one tag as one: later attributes replace earlier ones.
+    pub(super) fn merged(mut self, later: Self) -> Self {
+        self.attributes.extend(later.attributes);
+        self
+    }
+
+    /// Its location in the description.
+    pub(super) fn location(&self) -> &str {
+        &self.location
+    }
+
+    /// Its tag and location, for reports of what is omitted.
+    pub(super) fn words(&self) -> String {
+        format!("<{}> ({})", self.tag, self.location)
     }
 
     /// An error about this element.
     pub(super) fn fault(&self, message: impl std::fmt::Display) -> ImportError {
         let name = self.text("name").map(|name| format!(" `{name}`")).unwrap_or_default();
-        ImportError::new(format!("line {}: <{}>{name}: {message}", self.line, self.tag))
+        ImportError::new(format!("{}: <{}>{name}: {message}", self.location, self.tag))
     }
 
     /// Reports unknown attributes, because they may have an effect.

@@ -2,7 +2,7 @@
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
-use super::super::ImportError;
+use super::super::{ImportError, from_z};
 use super::element::Element;
 
 /// The attributes of a frame.
@@ -45,14 +45,6 @@ impl Angles {
 pub(super) fn direction(element: &Element, key: &str, vector: [f64; 3]) -> Result<Vector3, ImportError> {
     let direction = Vector3::from(vector).try_normalize(1e-14);
     direction.ok_or_else(|| element.fault(format!("`{key}` has no direction: all its numbers are zero")))
-}
-
-/// The smallest rotation from z to a unit vector.
-pub(super) fn from_z(direction: &Vector3) -> Rotation {
-    let across = Vector3::z().cross(direction);
-    let angle = across.norm().atan2(direction.z);
-    // For directions along z the axis is not unique: any perpendicular one is valid.
-    Rotation::about_axis(&across.try_normalize(1e-14).unwrap_or_else(Vector3::x), angle)
 }
 
 /// The position of an element in the enclosing frame.

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use lissom_motion::{Matrix3, Motion, Vector3};
 
-use super::super::{ImportError, LinkInertia};
+use super::super::{ImportError, LinkInertia, from_z};
 use super::element::Element;
-use super::frame::{self, Angles, from_z};
+use super::frame::{self, Angles};
 
 const USED: &[&str] = &[
     "type",

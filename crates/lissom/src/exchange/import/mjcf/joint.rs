@@ -61,7 +61,12 @@ pub(super) fn joint(
     joint.damping = element.not_negative("damping")?;
     joint.friction = element.not_negative("frictionloss")?;
     joint.armature = element.not_negative("armature")?;
-    joint.range = limits(element, ("range", "limited"), autolimits)?.map(|ends| ends.map(|end| end * unit));
+    element.location().clone_into(&mut joint.source);
+    // Free joints inherit `limited` of a default class without being limited, as in MuJoCo.
+    if freedom != Freedom::Floating {
+        let range = limits(element, ("range", "limited"), autolimits)?;
+        joint.range = range.map(|ends| ends.map(|end| end * unit));
+    }
     joint.anchor = Vector3::from(element.numbers::<3>("pos")?.unwrap_or_default());
     if joint.moves() {
         joint.axis = direction(element, "axis", element.numbers::<3>("axis")?.unwrap_or([0.0, 0.0, 1.0]))?;

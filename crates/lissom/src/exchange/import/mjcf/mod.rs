@@ -33,11 +33,8 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
         let message = format!("this is not MJCF: its root is <{}>, not <mujoco>", root.tag_name().name());
         return Err(ImportError::new(message));
     }
-    let mut compilers = children(root, "compiler");
-    let compiler = compilers.next().map_or_else(|| Element::bare(root), Element::bare);
-    if let Some(second) = compilers.next() {
-        return Err(Element::bare(second).fault("there are two <compiler> elements: merge them"));
-    }
+    let compiler = children(root, "compiler").map(Element::bare).reduce(Element::merged);
+    let compiler = compiler.unwrap_or_else(|| Element::bare(root));
     outside::check_compiler(&compiler)?;
     let mut reader = Reader {
         angles: Angles::read(&compiler)?,
@@ -50,11 +47,13 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
         robot: Robot {
             name: root.attribute("model").unwrap_or("robot").to_owned(),
             gravity: outside::gravity(root)?,
-            links: vec![Link { name: "world".to_owned(), inertia: None, visuals: Vec::new() }],
+            links: vec![Link::new("world".to_owned(), None, String::new())],
             is_root_the_world: true,
             joints: Vec::new(),
+            closures: Vec::new(),
             left_out: Vec::new(),
             unsupported: Vec::new(),
+            obstacles: Vec::new(),
         },
     };
     for world in children(root, "worldbody") {
@@ -66,11 +65,12 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
             needs_geoms: false,
             is_frame: false,
         };
-        reader.content(world, &place, &mut Content::default())?;
-        reader.carried(world, 0, &place)?;
+        reader.content(world, &place, &mut Content::default());
+        reader.carried(world, 0, &place);
     }
     let Reader { mut robot, classes, seen, touching, .. } = reader;
-    outside::read(root, &classes, &mut robot)?;
+    outside::set_total_mass(&compiler, &mut robot)?;
+    outside::read(root, &classes, &mut robot);
     let seen = xml::counted(seen.into_iter());
     if !seen.is_empty() {
         robot.left_out.push(format!("elements: {}", seen.join(", ")));
@@ -78,7 +78,8 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
     if touching > 1 {
         robot.left_out.push("contacts: bodies pass through each other".to_owned());
     }
-    check_names(&robot)?;
+    let named = check_names(&robot);
+    robot.keep(named);
     Ok(robot)
 }
 
@@ -140,44 +141,49 @@ struct Context<'a> {
 
 impl Reader {
     /// Reads the contents of a body, or of a frame of it, except nested bodies.
-    fn content(
+    fn content(&mut self, node: Node<'_, '_>, place: &Context<'_>, content: &mut Content) {
+        for child in node.children().filter(Node::is_element) {
+            let read = self.entry(child, place, content);
+            self.robot.keep(read);
+        }
+    }
+
+    /// Reads an element of a body.
+    fn entry(
         &mut self,
-        node: Node<'_, '_>,
+        child: Node<'_, '_>,
         place: &Context<'_>,
         content: &mut Content,
     ) -> Result<(), ImportError> {
         let may_move = !place.is_world && !place.is_frame;
-        for child in node.children().filter(Node::is_element) {
-            match child.tag_name().name() {
-                "body" => {}
-                "frame" => self.content(child, &self.frame(child, place)?, content)?,
-                "joint" if may_move => content.joints.push(self.classes.element(child, place.class)?),
-                "freejoint" if may_move => content.joints.push(Element::bare(child)),
-                "inertial" if may_move => {
-                    let own = Element::bare(child);
-                    let read = inertial(&own, &frame::frame(&own, &self.angles)?)?;
-                    if content.inertial.replace(read).is_some() {
-                        return Err(own.fault("the body has two"));
-                    }
+        match child.tag_name().name() {
+            "body" => {}
+            "frame" => self.content(child, &self.frame(child, place)?, content),
+            "joint" if may_move => content.joints.push(self.classes.element(child, place.class)?),
+            "freejoint" if may_move => content.joints.push(Element::bare(child)),
+            "inertial" if may_move => {
+                let own = Element::bare(child);
+                let read = inertial(&own, &frame::frame(&own, &self.angles)?)?;
+                if content.inertial.replace(read).is_some() {
+                    return Err(own.fault("the body has two"));
                 }
-                "geom" => {
-                    let geom = Geom::read(self.classes.element(child, place.class)?)?;
-                    self.touching += usize::from(geom.touches);
-                    if place.needs_geoms
-                        && (self.groups[0]..=self.groups[1]).contains(&geom.group)
-                        && let Some(mass) = geom.mass(&self.angles)?
-                    {
-                        let mass = carried(&mass, &place.offset);
-                        content.geoms = Some(together(content.geoms.as_ref(), &mass));
-                    }
+            }
+            "geom" => {
+                let geom = Geom::read(self.classes.element(child, place.class)?)?;
+                self.touching += usize::from(geom.touches);
+                if place.needs_geoms
+                    && (self.groups[0]..=self.groups[1]).contains(&geom.group)
+                    && let Some(mass) = geom.mass(&self.angles)?
+                {
+                    let mass = carried(&mass, &place.offset);
+                    content.geoms = Some(together(content.geoms.as_ref(), &mass));
                 }
-                "plugin" => self.robot.unsupported.push("a <plugin>".to_owned()),
-                tag if SEEN.contains(&tag) => self.seen.push(tag.to_owned()),
-                tag => {
-                    let message =
-                        format!("<{tag}> is not supported here: write the elements that it generates");
-                    return Err(Element::bare(child).fault(message));
-                }
+            }
+            "plugin" => self.robot.unsupported.push(Element::bare(child).words()),
+            tag if SEEN.contains(&tag) => self.seen.push(tag.to_owned()),
+            tag => {
+                let message = format!("<{tag}> is not supported here: write the elements that it generates");
+                return Err(Element::bare(child).fault(message));
             }
         }
         Ok(())
@@ -193,25 +199,33 @@ impl Reader {
     }
 
     /// Reads the child bodies of link `parent`.
-    fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Context<'_>) -> Result<(), ImportError> {
+    fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Context<'_>) {
         for child in node.children().filter(Node::is_element) {
             if child.has_tag_name("frame") {
-                self.carried(child, parent, &self.frame(child, place)?)?;
+                // A frame that cannot be read is reported with the content of its body.
+                if let Ok(place) = self.frame(child, place) {
+                    self.carried(child, parent, &place);
+                }
             } else if child.has_tag_name("body") {
-                self.body(child, parent, place)?;
+                let read = self.body(child, parent, place);
+                self.robot.keep(read);
             }
         }
-        Ok(())
     }
 
     /// Reads a child body of link `parent`, and all its descendants.
     fn body(&mut self, node: Node<'_, '_>, parent: usize, around: &Context<'_>) -> Result<(), ImportError> {
         let own = Element::bare(node);
-        own.check_known(&frame::ATTRIBUTES, &["childclass", "mocap", "gravcomp", "user", "sleep"])?;
-        let mut origin = around.offset * frame::frame(&own, &self.angles)?;
+        let known =
+            own.check_known(&frame::ATTRIBUTES, &["childclass", "mocap", "gravcomp", "user", "sleep"]);
+        self.robot.keep(known);
+        let frame = self.robot.keep(frame::frame(&own, &self.angles)).unwrap_or_default();
+        let mut origin = around.offset * frame;
         let name = own.text("name").map_or_else(|| format!("body{}", self.robot.links.len()), str::to_owned);
         if own.number("gravcomp", 0.0)? != 0.0 {
-            self.robot.unsupported.push(format!("the compensated weight of body `{name}`"));
+            self.robot
+                .unsupported
+                .push(format!("the compensated weight of body `{name}` ({})", own.location()));
         }
         if own.flag("mocap", false)? {
             self.robot.left_out.push(format!("the prescribed motion of body `{name}`, which is fixed"));
@@ -229,7 +243,7 @@ impl Reader {
             is_frame: false,
         };
         let mut content = Content::default();
-        self.content(node, &place, &mut content)?;
+        self.content(node, &place, &mut content);
         let inertia = if place.needs_geoms { content.geoms } else { content.inertial };
 
         // Several joints of a body are in series, through massless links.
@@ -243,29 +257,29 @@ impl Reader {
                 None => format!("{name}_joint{}", number + 1),
             };
             let link = if is_last { name.clone() } else { format!("{name} behind {joint_name}") };
-            self.robot.links.push(Link {
-                name: link,
-                inertia: inertia.filter(|_| is_last),
-                visuals: Vec::new(),
-            });
+            let source = own.location().to_owned();
+            self.robot.links.push(Link::new(link, inertia.filter(|_| is_last), source));
             let compiled = (&self.angles, self.autolimits);
-            let joint = joint::joint(element, compiled, (joint_name, carrier, child, origin))?;
+            let read = joint::joint(element, compiled, (joint_name.clone(), carrier, child, origin));
+            let fixed = || RobotJoint::new(joint_name, Freedom::Fixed, carrier, child, origin);
+            let joint = self.robot.keep(read).unwrap_or_else(fixed);
             if joint.freedom == Freedom::Floating && (count > 1 || parent > 0) {
-                return Err(
-                    element.fault("a body with a free joint can have no other joint and no parent body")
-                );
+                let fault =
+                    element.fault("a body with a free joint can have no other joint and no parent body");
+                self.robot.obstacles.push(fault.message);
             }
             self.robot.joints.push(joint);
             (carrier, origin) = (child, Motion::identity());
         }
         if count == 0 {
             let child = self.robot.links.len();
-            self.robot.links.push(Link { name: name.clone(), inertia, visuals: Vec::new() });
+            self.robot.links.push(Link::new(name.clone(), inertia, own.location().to_owned()));
             let fixed = RobotJoint::new(format!("{name}_fixed"), Freedom::Fixed, parent, child, origin);
             self.robot.joints.push(fixed);
             carrier = child;
         }
-        self.carried(node, carrier, &place)
+        self.carried(node, carrier, &place);
+        Ok(())
     }
 }
 

@@ -1,23 +1,17 @@
 //! Sections of an MJCF file other than bodies: those that are converted, and those that are reported.
 
-use std::collections::BTreeMap;
-
 use lissom_motion::Vector3;
 use roxmltree::Node;
 
 use super::super::xml::{children, counted};
-use super::super::{ImportError, Robot};
+use super::super::{Closure, ImportError, Robot};
 use super::element::{Classes, Element};
 
 /// Sections that do not affect the motion.
 const SHOWN: [&str; 7] = ["size", "visual", "statistic", "asset", "custom", "sensor", "keyframe"];
 /// Settings of a compiler that change masses, and their values without effect.
-const MASS_SETTINGS: [(&str, &[&str]); 4] = [
-    ("boundmass", &["0"]),
-    ("boundinertia", &["0"]),
-    ("settotalmass", &["-1"]),
-    ("balanceinertia", &["false"]),
-];
+const MASS_SETTINGS: [(&str, &[&str]); 3] =
+    [("boundmass", &["0"]), ("boundinertia", &["0"]), ("balanceinertia", &["false"])];
 /// Forces that flags of the options can disable.
 const FORCES: [&str; 8] =
     ["constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "clampctrl"];
@@ -49,15 +43,39 @@ pub(super) fn gravity(root: Node<'_, '_>) -> Result<Vector3, ImportError> {
     Ok(gravity.into())
 }
 
+/// Scales masses and inertias to the total mass `settotalmass` of the compiler [kg], if it is positive.
+pub(super) fn set_total_mass(compiler: &Element, robot: &mut Robot) -> Result<(), ImportError> {
+    let wanted = compiler.number("settotalmass", -1.0)?;
+    let found: f64 = robot.links.iter().filter_map(|link| link.inertia).map(|inertia| inertia.mass).sum();
+    if wanted > 0.0 && found > 0.0 {
+        for inertia in robot.links.iter_mut().filter_map(|link| link.inertia.as_mut()) {
+            inertia.mass *= wanted / found;
+            inertia.inertia *= wanted / found;
+        }
+    }
+    Ok(())
+}
+
 /// Reads all sections except bodies into `robot`.
-pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
+pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) {
     let handled = ["compiler", "default", "worldbody", "option", "contact", "equality", "tendon", "actuator"];
     for node in root.children().filter(Node::is_element) {
         let tag = node.tag_name().name();
         match tag {
-            "option" => option(node, robot)?,
-            "equality" => equality(node, classes, robot)?,
-            "tendon" => tendons(node, classes, robot)?,
+            "option" => {
+                let read = option(node, robot);
+                robot.keep(read);
+            }
+            "equality" => {
+                for inner in inner(node) {
+                    let read = equality(inner, classes, robot);
+                    robot.keep(read);
+                }
+            }
+            "tendon" => {
+                let read = tendons(node, classes, robot);
+                robot.keep(read);
+            }
             "actuator" => {
                 let all = counted(inner(node).map(|own| own.tag_name().name().to_owned()));
                 if !all.is_empty() {
@@ -72,15 +90,16 @@ pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> 
                 robot.left_out.push("key frames: initial values are specified by --position".to_owned());
             }
             "include" => {
+                // Files are read where the description is one.
                 let file = node.attribute("file").unwrap_or_default();
-                return Err(Element::bare(node)
-                    .fault(format!("the file `{file}` is not read: replace the <include> by its text")));
+                let fault = Element::bare(node)
+                    .fault(format!("the file `{file}` is not read from a text without a folder"));
+                robot.obstacles.push(fault.message);
             }
             _ if handled.contains(&tag) || SHOWN.contains(&tag) => {}
-            other => robot.unsupported.push(format!("<{other}>")),
+            _ => robot.unsupported.push(Element::bare(node).words()),
         }
     }
-    Ok(())
 }
 
 fn inner<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
@@ -91,48 +110,68 @@ fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
     let option = Element::bare(node);
     for key in ["density", "viscosity"] {
         if option.number(key, 0.0)? != 0.0 {
-            robot.unsupported.push(format!("fluid forces, `{key}` of <option>"));
+            robot.unsupported.push(format!("fluid forces, `{key}` of {}", option.words()));
         }
     }
     for flag in children(node, "flag") {
         for word in FORCES.iter().filter(|word| flag.attribute(**word) == Some("disable")) {
-            robot.unsupported.push(format!("the flag {word}=\"disable\" of <option>"));
+            robot.unsupported.push(format!("the flag {word}=\"disable\" of {}", option.words()));
         }
     }
     Ok(())
 }
 
-/// Joints that follow others become mimic joints; other loop closures are reported.
+/// Joints that follow others become mimic joints; bodies that are connected close loops; other equalities are reported.
 fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
-    for node in inner(node) {
-        let own = classes.element(node, None)?;
-        if !own.flag("active", true)? {
-            robot.left_out.push("an equality that is not active".to_owned());
-            continue;
-        }
-        let tag = node.tag_name().name();
-        let polynomial = own.list("polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
-        let is_linear = polynomial.iter().skip(2).all(|factor| *factor == 0.0);
-        let (first, second) = (own.text("joint1"), own.text("joint2"));
-        let (Some(first), Some(second)) = (first.filter(|_| tag == "joint" && is_linear), second) else {
-            robot.unsupported.push(format!("<{tag}> of <equality>"));
-            continue;
+    let own = classes.element(node, None)?;
+    if !own.flag("active", true)? {
+        robot.left_out.push(format!("an equality that is not active, {}", own.words()));
+        return Ok(());
+    }
+    let tag = node.tag_name().name();
+    let relative = own.list("relpose")?.unwrap_or_default();
+    let is_relative = relative.iter().skip(3).any(|value| *value != 0.0);
+    if let (true, Some(first)) = (matches!(tag, "connect" | "weld") && !is_relative, own.text("body1")) {
+        let body = |name: &str| {
+            let found = robot.links.iter().position(|link| link.name == name);
+            found.ok_or_else(|| own.fault(format!("there is no body `{name}`")))
         };
-        let references: BTreeMap<&str, f64> =
-            robot.joints.iter().map(|joint| (joint.name.as_str(), joint.reference)).collect();
-        let reference = |name: &str| {
-            references.get(name).copied().ok_or_else(|| own.fault(format!("there is no joint `{name}`")))
-        };
-        // y - y₀ = a + b (x - x₀)
-        let (a, b) = (polynomial.first().copied().unwrap_or(0.0), polynomial.get(1).copied().unwrap_or(0.0));
-        let offset = reference(first)? + a - b * reference(second)?;
-        let follows = Some((second.to_owned(), b, offset));
-        for joint in robot.joints.iter_mut().filter(|joint| joint.name == first) {
-            if !joint.moves() || joint.follows.is_some() || b == 0.0 {
-                return Err(own.fault(format!("joint `{first}` cannot depend on `{second}` in this way")));
-            }
-            joint.follows.clone_from(&follows);
+        let links = [body(first)?, body(own.text("body2").unwrap_or("world"))?];
+        let anchor = own.numbers::<3>("anchor")?;
+        if tag == "connect" && anchor.is_none() {
+            return Err(own.fault("it has no `anchor`"));
         }
+        let name =
+            own.text("name").map_or_else(|| format!("{tag}{}", robot.closures.len() + 1), str::to_owned);
+        robot.closures.push(Closure {
+            name,
+            locks_rotation: tag == "weld",
+            links,
+            // The point of a weld has no effect but on its softness.
+            anchor: anchor.filter(|_| tag == "connect").map_or_else(Vector3::zeros, Vector3::from),
+            source: own.location().to_owned(),
+        });
+        return Ok(());
+    }
+    let polynomial = own.list("polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
+    let is_linear = polynomial.iter().skip(2).all(|factor| *factor == 0.0);
+    let (first, second) = (own.text("joint1"), own.text("joint2"));
+    let (Some(first), Some(second)) = (first.filter(|_| tag == "joint" && is_linear), second) else {
+        robot.unsupported.push(format!("{} of <equality>", own.words()));
+        return Ok(());
+    };
+    let reference = |name: &str| {
+        let found = robot.joints.iter().find(|joint| joint.name == name).map(|joint| joint.reference);
+        found.ok_or_else(|| own.fault(format!("there is no joint `{name}`")))
+    };
+    // y - y₀ = a + b (x - x₀)
+    let (a, b) = (polynomial.first().copied().unwrap_or(0.0), polynomial.get(1).copied().unwrap_or(0.0));
+    let offset = reference(first)? + a - b * reference(second)?;
+    for joint in robot.joints.iter_mut().filter(|joint| joint.name == first) {
+        if !joint.moves() || joint.follows.is_some() || b == 0.0 {
+            return Err(own.fault(format!("joint `{first}` cannot depend on `{second}` in this way")));
+        }
+        joint.follows = Some((second.to_owned(), b, offset));
     }
     Ok(())
 }
@@ -146,7 +185,7 @@ fn tendons(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(
         });
         let name = own.text("name").unwrap_or("without a name");
         if acts {
-            robot.unsupported.push(format!("the tendon `{name}`"));
+            robot.unsupported.push(format!("the tendon `{name}` ({})", own.location()));
         } else {
             robot.left_out.push(format!("the tendon `{name}`, which serves only actuators"));
         }

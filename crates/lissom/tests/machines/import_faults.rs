@@ -1,0 +1,170 @@
+//! What real robot files contain: included files, limits that exclude zero, attributes without effect; and obstacles, all in one
+//! message with the line of the source.
+
+use lissom::exchange::import::{
+    Freedom, ImportError, Options, Pose, Robot, chosen_starts, from_description, from_file, model_text,
+};
+
+use crate::support::folder::Folder;
+
+fn refused(robot: &Robot) -> ImportError {
+    model_text(robot, &Pose::default(), Options::default()).unwrap_err()
+}
+
+#[test]
+fn included_files_take_the_place_of_their_element() {
+    let folder = Folder::new("included");
+    std::fs::create_dir_all(folder.path().join("common")).unwrap();
+    folder.write(
+        "walker.xml",
+        "<mujoco><include file='./common/settings.xml'/>\n<worldbody>\n<body name='trunk'><freejoint/><geom size='0.2'/>\n\
+         <include file='common/leg.xml'/></body></worldbody></mujoco>",
+    );
+    folder.write(
+        "common/settings.xml",
+        "<mujocoinclude>\n<compiler angle='radian'/><include file='defaults.xml'/></mujocoinclude>",
+    );
+    folder.write(
+        "common/defaults.xml",
+        "<mujoco><default><joint damping='2' axis='0 1 0'/></default></mujoco>",
+    );
+    let leg = "<mujocoinclude>\n<body name='leg' pos='0 0 -0.3'>\n<joint name='hip' range='-1 2'/><geom size='0.1'/></body></mujocoinclude>";
+    folder.write("common/leg.xml", leg);
+    let path = folder.path().join("walker.xml");
+    let robot = from_file(&path).expect("a robot");
+    let hip = robot.joints.iter().find(|joint| joint.name == "hip").expect("there");
+    assert_eq!((hip.damping, hip.axis.y, hip.range), (2.0, 1.0, Some([-1.0, 2.0])));
+    assert_eq!((hip.parent, hip.source.as_str()), (1, "line 3 of common/leg.xml"));
+    assert_eq!(
+        robot.links[1].source, "line 3",
+        "behind an included file the lines are those of the robot's own"
+    );
+    model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+
+    folder.write("common/leg.xml", &leg.replace("axis", "axes").replace("range", "rnge"));
+    let found = refused(&from_file(&path).expect("a robot")).message;
+    assert!(found.contains("line 3 of common/leg.xml: <joint> `hip`: the attribute `rnge`"), "{found}");
+    for (text, words) in [
+        (
+            "<mujocoinclude>\n<include file='leg.xml'/></mujocoinclude>",
+            "line 2 of common/leg.xml: <include>: the file `leg.xml` is included twice",
+        ),
+        ("<mujocoinclude><include file='none.xml'/></mujocoinclude>", "`none.xml` is not there"),
+        ("<mujocoinclude>", "common/leg.xml: this is no XML"),
+    ] {
+        folder.write("common/leg.xml", text);
+        let found = from_file(&path).unwrap_err().message;
+        assert!(found.contains(words), "{found}");
+    }
+}
+
+const GRIPPER: &str = "<robot name='r'><link name='base'/>
+    <link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>
+    <link name='b'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>
+    <link name='c'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>
+    <joint name='elbow' type='revolute'><parent link='base'/><child link='a'/><limit lower='-3' upper='-0.07' effort='1' velocity='2'/></joint>
+    <joint name='grip' type='prismatic'><parent link='base'/><child link='b'/><limit lower='0' upper='0.04' effort='1' velocity='2'/></joint>
+    <joint name='other' type='prismatic'><parent link='base'/><child link='c'/><limit lower='-0.03' upper='-0.01' effort='1' velocity='2'/>
+    <mimic joint='grip' multiplier='-1'/></joint></robot>";
+
+#[test]
+fn joints_whose_limits_exclude_zero_start_at_the_nearest_position() {
+    let robot = from_description(GRIPPER).expect("a robot");
+    let of = |pose: &Pose, options| -> Vec<(String, f64)> {
+        chosen_starts(&robot, pose, options).into_iter().map(|own| (own.joint, own.value)).collect()
+    };
+    let chosen = of(&Pose::default(), Options::default());
+    assert_eq!(chosen, [("elbow".to_owned(), -0.07), ("grip".to_owned(), 0.01)]);
+    let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+    for words in
+        ["angle = -0.07", "displacement = 0.01", "displacement = -0.01", "# joint `elbow` starts at -0.07"]
+    {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert_eq!(of(&Pose::default(), Options { limits: false, ..Options::default() }), []);
+    let given = Pose { values: [("elbow".to_owned(), -1.0)].into(), ..Pose::default() };
+    assert_eq!(of(&given, Options::default()), [("grip".to_owned(), 0.01)]);
+    // Given positions are not moved; all that are beyond limits are named.
+    let given =
+        Pose { values: [("elbow".to_owned(), 0.5), ("grip".to_owned(), 0.04)].into(), ..Pose::default() };
+    let found = model_text(&robot, &given, Options::default()).unwrap_err().message;
+    for words in [
+        "2 obstacles",
+        "line 5: joint `elbow` starts at 0.5, outside of its limits -3 … -0.07",
+        "line 7: joint `other` starts at -0.04",
+    ] {
+        assert!(found.contains(words), "{found}");
+    }
+    let robot = from_description(&GRIPPER.replace("upper='0.04'", "upper='0.005'")).expect("a robot");
+    let found = refused(&robot).message;
+    assert!(
+        found.contains("joint `grip`: no position is within its limits and those of the joints"),
+        "{found}"
+    );
+    let robot =
+        from_description(&GRIPPER.replace("mimic joint='grip'", "mimic joint='other'")).expect("a robot");
+    assert!(refused(&robot).message.contains("joint `other` mimics itself"));
+}
+
+#[test]
+fn all_obstacles_are_in_one_message() {
+    let robot = from_description(
+        "<mujoco>
+         <option density='1.2'/>
+         <worldbody><body name='a'>
+         <joint name='j' dampng='1'/><geom size='0.1'/>
+         <body name='b'><joint/><geom type='mesh' mesh='m'/></body></body>
+         <body name='c'><joint/><inertial pos='0 0 0' mass='1' diaginertia='0 0 0'/></body></worldbody>
+         <tendon><spatial name='t' stiffness='3'/></tendon></mujoco>",
+    )
+    .expect("a robot");
+    let found = refused(&robot).message;
+    for words in
+        ["4 obstacles", "line 4: <joint> `j`", "line 5: <geom>", "(line 2)", "the tendon `t` (line 7)"]
+    {
+        assert!(found.contains(words), "{words}: {found}");
+    }
+    // Masses are checked in descriptions without faults.
+    let robot = from_description(
+        "<robot name='r'><link name='base'/>
+         <link name='arm'><inertial><mass value='1'/><inertia ixx='0' iyy='0' izz='0'/></inertial></link>
+         <link name='tip'/><link name='tool'/>
+         <joint name='a' type='continuous'><parent link='base'/><child link='arm'/></joint>
+         <joint name='b' type='continuous'><parent link='arm'/><child link='tip'/></joint>
+         <joint name='c' type='continuous'><parent link='arm'/><child link='tool'/></joint></robot>",
+    )
+    .expect("a robot");
+    let found = refused(&robot).message;
+    for words in
+        ["3 obstacles", "line 2: link `arm` has the mass 1.0 kg", "line 3: link `tip`", "line 3: link `tool`"]
+    {
+        assert!(found.contains(words), "{words}: {found}");
+    }
+}
+
+#[test]
+fn what_has_no_effect_is_ignored() {
+    let robot = from_description(
+        "<mujoco><compiler angle='radian'/><default><joint limited='true'/></default><compiler settotalmass='3'/>
+         <worldbody><body><joint type='free'/><geom size='0.1' mass='1'/>
+         <body><joint axis='0 1 0' range='-1 1'/><geom size='0.05' mass='0.2'/></body></body></worldbody></mujoco>",
+    )
+    .expect("a robot");
+    assert_eq!((robot.joints[0].freedom, robot.joints[0].range), (Freedom::Floating, None));
+    assert_eq!(robot.joints[1].range, Some([-1.0, 1.0]));
+    // The total mass of the description.
+    let masses: Vec<f64> = robot.links.iter().filter_map(|link| link.inertia).map(|own| own.mass).collect();
+    assert!((masses[0] - 2.5).abs() < 1e-14 && (masses[1] - 0.5).abs() < 1e-14, "{masses:?}");
+    let inertia = robot.links[1].inertia.expect("a mass").inertia;
+    assert!((inertia[(0, 0)] - 0.4 * 2.5 * 0.01).abs() < 1e-15);
+    model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+
+    let robot = from_description(
+        "<robot name='r'><link name='base'/><link name='arm'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>
+         </link><link name='tool'/><joint name='j' type='continuous'><parent link='base'/><child link='arm'/></joint>
+         <joint name='f' type='fixed'><parent link='arm'/><child link='tool'/><dynamics damping='100'/></joint></robot>",
+    )
+    .expect("a robot");
+    let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+    assert!(text.contains("# Omitted: damping and friction of the fixed joint `f` (line 3)"), "{text}");
+}
