@@ -181,6 +181,14 @@ impl System {
         }
     }
 
+    /// Forces of those elements that may depend on time.
+    pub fn forces_over_time(&self, at: &Kinematics, out: &mut [f64]) {
+        out.fill(0.0);
+        for batch in self.batches.iter().filter(|batch| batch.capabilities().load.is_some()) {
+            batch.forces(at, out);
+        }
+    }
+
     /// Adds the derivatives of constraints.
     pub fn linearize_constraints(
         &self,

@@ -404,3 +404,42 @@ fn ropes_that_cannot_be_are_refused() {
         assert!(found.contains(wanted), "{wanted}: {found}");
     }
 }
+
+/// A winch lifts a load by a stiff rope with long steps: its force is recovered with the acceleration that the winch requires.
+#[test]
+fn the_force_of_a_rope_follows_from_the_motion_of_its_winch() {
+    let text = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[point_masses.load]
+mass = 2000
+position = [0, 0, -15]
+[springs.rope]
+kind = "rope"
+along = [{ on = "ground", at = [0, 0, 0] }, { on = "load" }]
+stiffness = 2e6
+damping = 2e4
+length = "15 - 2000*9.81/2e6 - 3*smoothstep((t - 2)/8)"
+[outputs.rope]
+kind = "spring"
+of = "rope"
+[outputs.load]
+kind = "acceleration"
+of = "load"
+[analysis]
+kind = "dynamics"
+end = 12
+output_step = 0.25
+"#;
+    for scheme in ["radau-iia-9", "radau-iia-5", "radau-iia"] {
+        let record = run(text, &[("analysis.scheme", &format!("\"{scheme}\""))]);
+        for (k, time) in record.times.iter().enumerate() {
+            let x = ((time - 2.0) / 8.0).clamp(0.0, 1.0);
+            let lifted = 3.0 / 64.0 * (120.0 * x.powi(3) - 180.0 * x * x + 60.0 * x);
+            let (found, force) = (column(&record, "load", "a3")[k], column(&record, "rope", "force")[k]);
+            // The rope stretches by less than a thousandth of the motion.
+            assert!((found - lifted).abs() < 4e-3, "{scheme}, t = {time}: {found} for {lifted}");
+            assert!((force - 2000.0 * (9.81 + found)).abs() < 2.0, "{scheme}, t = {time}: {force}");
+        }
+    }
+}

@@ -5,10 +5,10 @@
 //! same error, because a constraint is the limit of a stiff spring. Both follow from the positions:
 //!
 //! Legend: τ = h/2 with the step h, or less with more than two stages, S saddle-point matrix of M + τ D + τ² K and the constraints
-//! G, f forces, a accelerations of the scheme, c second derivative of the forces along the motion with constant twists.
+//! G, f forces, a accelerations of the scheme, c second derivative of the forces along the motion with constant twists, in time too.
 //!
 //! ```text
-//! S (δ, ·) = (-τ² K v, -(G v + ∂g/∂t)),                S (z, ·) = (τ² K δ, -(G v + ∂g/∂t))            v̂ = v + z
+//! S (δ, ·) = (-τ² (K v + ∂f/∂t), -(G v + ∂g/∂t)),      S (z, ·) = (τ² K δ, -(G v + ∂g/∂t))            v̂ = v + z
 //! S (x, ·) = (-r - τ² (K a + c), -(G a + Ġ v̂ + …)),    r = M a + f(q, v̂) + Gᵀ λ
 //! S (y, λ) = (-M a - f(q, v̂) + τ² K x, -(G a + Ġ v̂ + …))
 //! accelerations a + y,   internal forces at q + τ² (y - x)
@@ -38,9 +38,16 @@ const NEGLIGIBLE: f64 = 1e-14;
 /// Relative change of multipliers below which a solution of the complete equations is accurate to round-off.
 const SMALL_CHANGE: f64 = 1e-2;
 
+/// Backward differences of five values over four intervals, times the interval, and times its square: those of the first derivative and
+/// of the second one.
+const FIRST_DERIVATIVE: [f64; 5] = [25.0 / 12.0, -4.0, 3.0, -4.0 / 3.0, 0.25];
+const SECOND_DERIVATIVE: [f64; 5] = [35.0 / 12.0, -26.0 / 3.0, 9.5, -14.0 / 3.0, 11.0 / 12.0];
+
 /// Recovers velocities, accelerations, multipliers and internal forces for output. The motion itself does not change.
 pub struct Recovery {
     matrix: RecoveryMatrix,
+    /// Instants at which forces have kinks or jumps as functions of time [s].
+    breakpoints: Vec<f64>,
     /// Number of stages of the scheme: resolved vibrations change by (h ω/2) to twice this power, or four.
     stages: usize,
     found: Recovered,
@@ -93,6 +100,7 @@ impl Recovery {
                 (simulation.representative(), simulation.redundancy().clone()),
                 kind,
             ),
+            breakpoints: system.breakpoints(),
             stages: settings.scheme.stages.len(),
             found: Recovered { rates: state.clone(), forces: state.clone() },
             work: Workspace {
@@ -198,14 +206,16 @@ impl Recovery {
         work.right.iter().all(|value| value.is_finite()).then_some(())
     }
 
-    /// Makes velocities satisfy the constraints, without strain rates of stiff parts.
+    /// Makes velocities satisfy the constraints, without strain rates of stiff parts except those that forces over time require.
     fn filter_velocities(&mut self, system: &System, time: f64) {
-        let Self { matrix, found: Recovered { forces, .. }, work, stages, .. } = self;
-        if !matrix.is_stiff() {
+        if !self.matrix.is_stiff() {
             return;
         }
         let square = time * time;
-        work.stiff.clone_from(&work.lacking);
+        self.work.stiff.clone_from(&self.work.lacking);
+        self.stop(system);
+        self.subtract_change_over_time(system, time, false);
+        let Self { matrix, found: Recovered { forces, .. }, work, stages, .. } = self;
         let speeds = &work.speeds;
         matrix.add_stiffness_product(|row| -square * speeds[row], &mut work.stiff);
         matrix.solve(&mut work.stiff);
@@ -311,6 +321,7 @@ impl Recovery {
             return;
         }
         self.subtract_turning(system, time);
+        self.subtract_change_over_time(system, time, true);
         let Self { matrix, work, stages, .. } = self;
         let Workspace { right, lacking, unbalanced, stiff, accelerations, .. } = work;
         for (stiff, (lacking, unbalanced)) in stiff.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
@@ -328,14 +339,9 @@ impl Recovery {
         }
     }
 
-    /// `stiff` -= τ² d²f/dt² along the motion with constant twists, f the forces of elements that may be stiff: by differences over τ
-    /// and τ/2 at rest, so that only position-dependent forces are compared.
-    fn subtract_turning(&mut self, system: &System, time: f64) {
-        let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
-        let layout = system.layout();
-        let count = layout.coordinate_count();
-        let Workspace { speeds, right: found, stiff: sum, still, moved, .. } = work;
-        matrix.clear_rates(layout, speeds);
+    /// Sets `still` to the state at rest; rates of states are kept.
+    fn stop(&mut self, system: &System) {
+        let Self { found: Recovered { forces, .. }, work: Workspace { still, .. }, .. } = self;
         still.clone_from(&forces.kinematics);
         for node in &mut still.nodes {
             node.twist.fill(0.0);
@@ -344,9 +350,68 @@ impl Recovery {
         for coordinate in &mut still.coordinates {
             (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
         }
-        for (_, state, _) in layout.states() {
+        for (_, state, _) in system.layout().states() {
             still.coordinates[state] = forces.kinematics.coordinates[state];
         }
+    }
+
+    /// `stiff` -= τ² ∂f/∂t at rest, or of the second derivative along the motion with constant twists the part that is due to time, by
+    /// differences over τ towards the past, or towards the future if a function has a breakpoint there: a step ends at breakpoints.
+    fn subtract_change_over_time(&mut self, system: &System, time: f64, is_second: bool) {
+        let Self { matrix, work, breakpoints, .. } = self;
+        let layout = system.layout();
+        let Workspace { speeds, right: found, change: sum, stiff, still, moved, .. } = work;
+        let now = still.time;
+        let has_kink = |sign: f64| {
+            let [from, to] = if sign < 0.0 { [now - time, now] } else { [now, now + time] };
+            let margin = 1e-6 * time;
+            breakpoints.iter().any(|&own| own > from + margin && own < to - margin)
+        };
+        let sign = if has_kink(-1.0) && !has_kink(1.0) { 1.0 } else { -1.0 };
+        system.forces_over_time(still, sum);
+        moved.clone_from(still);
+        moved.time = now + sign * time;
+        system.forces_over_time(moved, found);
+        if sum == found {
+            return;
+        }
+        let interval = 0.25 * time;
+        // The difference of τ² f' is of an odd power of the interval.
+        let (weights, factor) = if is_second {
+            (SECOND_DERIVATIVE, time * time / (interval * interval))
+        } else {
+            (FIRST_DERIVATIVE, -sign * time * time / interval)
+        };
+        sum.fill(0.0);
+        for (k, weight) in weights.into_iter().enumerate() {
+            let shift = sign * interval * k as f64;
+            moved.clone_from(still);
+            if is_second {
+                move_by(layout, shift, speeds, moved);
+                // The part without time is that of the motion.
+                system.forces_over_time(moved, found);
+                sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum -= weight * force);
+            }
+            moved.time = now + shift;
+            system.forces_over_time(moved, found);
+            sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum += weight * force);
+        }
+        matrix.clear_rates(layout, sum);
+        if sum.iter().all(|value| value.is_finite()) {
+            let motions = sum.iter().take(layout.coordinate_count());
+            stiff.iter_mut().zip(motions).for_each(|(stiff, sum)| *stiff -= factor * sum);
+        }
+    }
+
+    /// `stiff` -= τ² d²f/dt² along the motion with constant twists, f the forces of elements that may be stiff: by differences over τ
+    /// and τ/2 at rest, so that only position-dependent forces are compared.
+    fn subtract_turning(&mut self, system: &System, time: f64) {
+        self.stop(system);
+        let Self { matrix, work, .. } = self;
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let Workspace { speeds, right: found, stiff: sum, still, moved, .. } = work;
+        matrix.clear_rates(layout, speeds);
         // Richardson's extrapolation of the second differences, f'' = (4 Δ(τ/2) - Δ(τ))/3.
         for (shift, weight) in [(0.0, -30.0), (0.5, 16.0), (-0.5, 16.0), (1.0, -1.0), (-1.0, -1.0)] {
             moved.clone_from(still);
