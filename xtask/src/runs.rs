@@ -125,6 +125,7 @@ fn modes(model: &Model, document: &Document) -> Result<Finished, String> {
         lissom::analyses::modes::modes(model, &ModeRequest::default()).map_err(|error| error.to_string())?;
     let column = |component: &str, quantity: &str, unit: &str| Column {
         output: "mode".to_owned(),
+        plot: "mode".to_owned(),
         component: component.to_owned(),
         quantity: quantity.to_owned(),
         unit: unit.to_owned(),

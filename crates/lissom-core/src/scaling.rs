@@ -198,6 +198,7 @@ impl Scaled {
             constraint: self.s,
             slip: weights.slip * self.s,
             turning: self.s * self.h,
+            slip_augmented: self.augmented * weights.slip_augmented,
         }
     }
 

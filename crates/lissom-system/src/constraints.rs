@@ -363,15 +363,16 @@ impl System {
                 let diagonal = if constraint.is_released(point.at) { -1.0 } else { 0.0 };
                 for &(i, j, position) in &arrangement.entries {
                     let (i, j) = (i as usize, j as usize);
+                    let square = |e: usize| {
+                        let weight = point.augmentation.relative(constraint.quantity(e));
+                        weight * plain[e * size + i] * charted[e * size + j]
+                    };
                     let parts = match (i.checked_sub(size), j.checked_sub(size)) {
-                        (None, None) if is_of_velocities => [stiffness[i * size + j], 0.0, 0.0],
-                        (None, None) => {
-                            let square = |e: usize| {
-                                let weight = point.augmentation.relative(constraint.quantity(e));
-                                weight * plain[e * size + i] * charted[e * size + j]
-                            };
-                            [stiffness[i * size + j], (0..count).map(square).sum(), 0.0]
+                        (None, None) if is_of_velocities => {
+                            out.add_slip_gram(position as usize, (0..count).map(square).sum());
+                            [stiffness[i * size + j], 0.0, 0.0]
                         }
+                        (None, None) => [stiffness[i * size + j], (0..count).map(square).sum(), 0.0],
                         (None, Some(e)) => [0.0, 0.0, plain[e * size + i]],
                         (Some(e), None) if is_of_velocities => {
                             let entry = e * size + j;

@@ -93,7 +93,14 @@ impl Monitor for Impacts {
             |warning| matches!(warning, Warning::ContactTooShort { .. }),
             |known| {
                 let (which, time) = found?;
-                let reported = || Warning::ContactTooShort { time, what: system.name_of_switch(which) };
+                let reported = || {
+                    let what = system.name_of_switch(which);
+                    // Laws of signals and local loads are no contacts.
+                    let is_law = !what.kind.is_empty();
+                    let effect =
+                        if is_law { "ends a motion at a kink or jump" } else { "stops the colliding part" };
+                    Warning::ContactTooShort { time, what, effect: effect.to_owned() }
+                };
                 Some(known.cloned().unwrap_or_else(reported))
             },
         );

@@ -115,6 +115,7 @@ fn check_sum(
         constraint: 1.3,
         slip: 1.7,
         turning: -0.4,
+        slip_augmented: 0.0,
     };
     let (pattern, layout) = (system.pattern(), system.layout());
     let mut is_slip = vec![false; pattern.entries()];

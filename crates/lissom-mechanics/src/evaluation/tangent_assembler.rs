@@ -27,6 +27,8 @@ pub struct Blend<T> {
     pub slip: T,
     /// Of ∂(B v)/∂ position there.
     pub turning: f64,
+    /// Of BᵀWB of constraints of velocities.
+    pub slip_augmented: f64,
 }
 
 /// A tangent under assembly.
@@ -141,6 +143,17 @@ impl TangentAssembler<'_> {
         }
     }
 
+    /// Adds BᵀWB of a constraint of velocities at one position.
+    pub fn add_slip_gram(&mut self, position: usize, augmented: f64) {
+        match self {
+            // Only load steps need it, to eliminate what such a constraint alone holds.
+            Self::Separate(_) => {}
+            Self::Real(sum) => sum.add_slip_gram(position, augmented),
+            Self::Complex(sum) => sum.add_slip_gram(position, augmented),
+            Self::Each(all) => all.iter_mut().for_each(|own| own.add_slip_gram(position, augmented)),
+        }
+    }
+
     /// Adds stiffness, BᵀWB and constraint at one position.
     pub fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
         match self {
@@ -163,6 +176,10 @@ impl<T: Scalar> Sum<'_, T> {
     fn add_slip_entry(&mut self, position: usize, [gradient, turning]: [f64; 2]) {
         let Blend { slip, turning: by_place, .. } = self.blend;
         self.values[position] += slip * T::from_real(gradient) + T::from_real(by_place * turning);
+    }
+
+    fn add_slip_gram(&mut self, position: usize, augmented: f64) {
+        self.values[position] += T::from_real(self.blend.slip_augmented * augmented);
     }
 
     fn clear(&mut self) {

@@ -88,17 +88,19 @@ pub struct Weights<T> {
     pub acceleration: T,
     /// Factor of constraints of velocities.
     pub slip: T,
+    /// Factor of their augmented term.
+    pub slip_augmented: f64,
 }
 
 impl Weights<f64> {
     /// Those of load steps: a constraint of velocities, such as a latch, then keeps what it constrains at its place.
-    pub const AT_REST: Self = Self { velocity: 0.0, acceleration: 0.0, slip: 1.0 };
+    pub const AT_REST: Self = Self { velocity: 0.0, acceleration: 0.0, slip: 1.0, slip_augmented: 1.0 };
 }
 
 impl<T: Copy> Weights<T> {
     /// Those of a motion.
     pub fn of_motion(velocity: T, acceleration: T) -> Self {
-        Self { velocity, acceleration, slip: velocity }
+        Self { velocity, acceleration, slip: velocity, slip_augmented: 0.0 }
     }
 }
 

@@ -246,6 +246,7 @@ fn inertial(scale: f64, values: &mut [f64]) -> TangentAssembler<'_> {
         constraint: scale,
         slip: scale,
         turning: 0.0,
+        slip_augmented: 0.0,
     };
     TangentAssembler::Real(Sum { blend, values, stiffness: &mut [] })
 }

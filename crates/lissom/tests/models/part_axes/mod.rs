@@ -174,6 +174,7 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         OutputKind::Reaction if matches!(name, "reaction_base" | "reaction_tip" | "reaction_guide") => {
             values.to_vec()
         }
+        OutputKind::SpringForce if name.ends_with("_base") => values.to_vec(),
         OutputKind::Reaction if values.len() < 3 => values.to_vec(),
         OutputKind::Position | OutputKind::Line => values
             .chunks(3)
@@ -184,6 +185,7 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         | OutputKind::Velocity
         | OutputKind::AngularVelocity
         | OutputKind::Acceleration
+        | OutputKind::SpringForce
         | OutputKind::Reaction => turned().collect(),
         OutputKind::Momentum | OutputKind::LocalLoad => {
             let own: Vec<f64> = values[..6]
