@@ -71,7 +71,6 @@ pub(crate) struct Batch {
     prepared: Prepared,
     start: SessionSnapshot,
     names: ColumnNames,
-    inputs: Vec<String>,
     joints: Mutex<Joints>,
     /// Codes of warnings that Python has received.
     reported: Mutex<BTreeSet<&'static str>>,
@@ -83,7 +82,6 @@ impl Batch {
         let first = session()?;
         let start = first.snapshot();
         let names = ColumnNames::of(&first);
-        let inputs = prepared.system().signals().input_names().map(str::to_owned).collect();
         let others = (1..count).into_par_iter().map(|_| session());
         let sessions: Vec<Session> =
             std::iter::once(Ok(first)).chain(others.collect::<Vec<_>>()).collect::<PyResult<_>>()?;
@@ -95,7 +93,6 @@ impl Batch {
             prepared,
             start,
             names,
-            inputs,
             joints: Mutex::default(),
             reported: Mutex::default(),
         })
@@ -263,11 +260,14 @@ impl Batch {
                 (names, values)
             }
             BatchInputs::Every(values) => {
-                (self.inputs.clone(), self.broadcast(&values.as_array().view(), Some(self.inputs.len()))?)
+                let names = self.prepared.inputs().to_vec();
+                let values = self.broadcast(&values.as_array().view(), Some(names.len()))?;
+                (names, values)
             }
         };
-        if let Some(name) = names.iter().find(|name| !self.inputs.contains(name)) {
-            let known = if self.inputs.is_empty() { "none".to_owned() } else { self.inputs.join(", ") };
+        let known = self.prepared.inputs();
+        if let Some(name) = names.iter().find(|name| !known.contains(name)) {
+            let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
             return Err(value_error(&InputError::Unknown { name: name.clone(), known }));
         }
         if let Some(index) = values.iter().position(|value| !value.is_finite()) {
@@ -318,7 +318,8 @@ impl Batch {
         self.advance(py, &mut members, |index, session| session.step_to(times[index]))
     }
 
-    /// Names of the independent joint coordinates; with `names` these are chosen, as `Simulation.coordinates` does.
+    /// Names of the independent joint coordinates, in the order of the model file; with `names` these are chosen, as
+    /// `Simulation.coordinates` does.
     #[pyo3(signature = (names = None))]
     fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
         Ok(self.lock_joints(py).choose(&self.prepared, names.as_deref())?.names().to_vec())
@@ -410,10 +411,10 @@ impl Batch {
         self.lock(py).iter().map(|member| member.cached.session.warnings().map(with_code).collect()).collect()
     }
 
-    /// Names of the inputs, in the order of `set(array)`.
+    /// Names of the inputs in the order of the model file, which is that of `set(array)`.
     #[getter]
     fn inputs(&self) -> Vec<String> {
-        self.inputs.clone()
+        self.prepared.inputs().to_vec()
     }
 
     /// Names of the columns, in the order of `values`.

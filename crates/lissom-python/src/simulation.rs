@@ -222,6 +222,12 @@ impl Simulation {
         PyArray1::from_slice(py, self.lock_attached(py).values())
     }
 
+    /// Names of the inputs, in the order of the model file.
+    #[getter]
+    fn inputs(&self) -> Vec<String> {
+        self.prepared.inputs().to_vec()
+    }
+
     /// Sets inputs of the model from now on, until they are set again: `set("torque", 0.5)`, `set({"torque": 0.5, "brake": 1})`,
     /// or `set(names, values)` with a list of names and a list or array of as many values. Several inputs that are set at once
     /// cost as much as one.
@@ -253,7 +259,7 @@ impl Simulation {
 
     /// Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as many
     /// as degrees of freedom. By default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all
-    /// joints with one coordinate.
+    /// joints with one coordinate, in the order of the joints in the model file.
     ///
     /// Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
     #[pyo3(signature = (names = None))]

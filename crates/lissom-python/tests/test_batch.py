@@ -47,12 +47,12 @@ def test_a_batch_is_so_many_simulations() -> None:
     model = lissom.loads(CART)
     batch = model.simulations(5)
     sims = [model.simulation() for _ in range(5)]
-    assert len(batch) == 5 and batch.inputs == ["brake", "thrust"] and batch.names == sims[0].names and batch.units == sims[0].units
+    assert len(batch) == 5 and batch.inputs == ["thrust", "brake"] and batch.names == sims[0].names and batch.units == sims[0].units
     rng = np.random.default_rng(0)
     for index in range(6):
         inputs = rng.uniform(-1, 1, (5, 2))
         batch.set(inputs)
-        for sim, (brake, thrust) in zip(sims, inputs):
+        for sim, (thrust, brake) in zip(sims, inputs):
             sim.set({"thrust": thrust, "brake": brake})
         if index % 2:
             batch.step()
@@ -77,12 +77,12 @@ def test_inputs_have_the_shapes_of_numpy() -> None:
     batch.set(["thrust", "brake"], np.array([5, 4]))
     assert np.array_equal(batch[["brake", "thrust"]], [[4, 5]] * 3)
     batch.set([[1, 2], [3, 4], [5, 6]])
-    before = batch[["brake", "thrust"]]
+    before = batch[batch.inputs]
     assert np.array_equal(before, [[1, 2], [3, 4], [5, 6]])
     wrong: list[tuple[Any, ...]] = [
         ("shape", np.zeros((2, 2))),
         ("shape", "thrust", [1.0, 2.0]),
-        ("brake, thrust", "trust", 1.0),
+        ("thrust, brake", "trust", 1.0),
         ("finite", "thrust", [1.0, np.nan, 0.0]),
         ("with their values", "thrust"),
     ]
@@ -91,7 +91,7 @@ def test_inputs_have_the_shapes_of_numpy() -> None:
             batch.set(*arguments)
     with pytest.raises(ValueError, match="simulation 1"):
         batch.step_to([1.0, -1.0, 1.0])
-    assert np.array_equal(batch[["brake", "thrust"]], before) and not batch.time.any()
+    assert np.array_equal(batch[batch.inputs], before) and not batch.time.any()
     with pytest.raises(KeyError, match="cart.x"):
         batch["cart"]
     with pytest.raises(ValueError, match="`count` is 0"):

@@ -91,6 +91,59 @@ def test_an_arm_starts_with_given_angles_and_rates() -> None:
     assert sim.values().tobytes() == fresh.values().tobytes()
 
 
+#: Joints and inputs whose order in the file is neither alphabetical nor that of their loads.
+UNSORTED = """
+lissom = 1
+[inputs]
+u_shoulder = 0
+u_elbow = 0
+[bodies.upper]
+mass = 2
+inertia = [0.02, 0.02, 0.02]
+position = [0, 0, 0.2]
+[bodies.fore]
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+position = [0, 0, 0.6]
+[joints]
+shoulder = { kind = "revolute", base = "ground", tip = "upper", at = [0, 0, 0], axis = [0, 1, 0] }
+elbow = { kind = "revolute", base = "upper", tip = "fore", at = [0, 0, 0.4], axis = [0, 1, 0] }
+[loads]
+bend = { kind = "joint_torque", joint = "elbow", torque = "u_elbow" }
+lift = { kind = "joint_torque", joint = "shoulder", torque = "u_shoulder" }
+[outputs]
+elbow = { kind = "relative", of = "elbow" }
+shoulder = { kind = "relative", of = "shoulder" }
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"""
+
+
+def test_arrays_have_the_order_of_the_file() -> None:
+    model = lissom.loads(UNSORTED)
+    sim, batch = model.simulation(), model.simulations(2)
+    assert sim.coordinates() == batch.coordinates() == ["shoulder.angle", "elbow.angle"]
+    assert sim.inputs == batch.inputs == ["u_shoulder", "u_elbow"]
+    # Without actuators as well, where all joints are coordinates.
+    passive = lissom.loads("".join(line for line in UNSORTED.splitlines(keepends=True) if "torque" not in line))
+    assert passive.simulation().coordinates() == ["shoulder.angle", "elbow.angle"]
+    sim.reset([0.3, -0.7], [1, 2])
+    batch.reset([0, 1], [0.3, -0.7], [1, 2])
+    assert np.allclose(sim[["shoulder.angle", "elbow.angle"]], [0.3, -0.7], rtol=0, atol=1e-12)
+    assert np.allclose(batch[["shoulder.rate", "elbow.rate"]], [1, 2], rtol=0, atol=1e-12)
+    # The torques of an array in the order of the coordinates reach their joints.
+    torques = sim.inverse_dynamics([3, -4])
+    sim.set(sim.inputs, torques)
+    batch.set(torques)
+    assert batch["u_shoulder"].tolist() == [torques[0]] * 2 and batch["u_elbow"].tolist() == [torques[1]] * 2
+    sim.step_to(1e-5)
+    batch.step_to(1e-5)
+    assert np.allclose(sim.joint_state()[1], [1 + 3e-5, 2 - 4e-5], rtol=0, atol=1e-8)
+    assert np.array_equal(batch[["shoulder.rate", "elbow.rate"]], [sim[["shoulder.rate", "elbow.rate"]]] * 2)
+
+
 def test_a_start_that_is_refused_changes_nothing() -> None:
     sim = arm(3).simulation()
     sim.step_to(0.1)

@@ -78,7 +78,11 @@ pub fn build(document: &Document, locked: &[NodeId]) -> Result<Built, Report> {
     stop_at(document, &mut problems)?;
     let mut builder = Builder::new();
     builder.set_gravity(document.gravity);
-    let mut names = Names::default();
+    let mut names = Names {
+        joints: document.joints.iter().map(|joint| joint.name.value.clone()).collect(),
+        inputs: document.inputs.iter().map(|(name, _)| name.value.clone()).collect(),
+        ..Names::default()
+    };
     if document.analysis.ramp {
         let span = (document.analysis.start, document.analysis.end);
         builder.set_gravity_factor(Arc::new(Ramp { value: 1.0, span }));

@@ -48,6 +48,10 @@ pub struct Names {
     pub deformations: BTreeMap<String, Deformed>,
     /// Nodes and elements of each beam.
     pub lines: BTreeMap<String, BeamLine>,
+    /// Joints in the order of the file.
+    pub joints: Vec<String>,
+    /// Inputs in the order of the file.
+    pub inputs: Vec<String>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
     /// Springs that have an elongation, and whether it is a length or an angle.

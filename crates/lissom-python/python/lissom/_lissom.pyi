@@ -120,6 +120,9 @@ class Simulation:
     @overload
     def __getitem__(self, names: Sequence[str], /) -> Array:
         """Present value of a column, a signal, an input or a state, in SI units; with a list of names an array of their values."""
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the inputs, in the order of the model file."""
     @overload
     def set(self, inputs: str, value: float) -> None: ...
     @overload
@@ -136,7 +139,7 @@ class Simulation:
     def coordinates(self, names: Optional[Sequence[str]] = None) -> list[str]:
         """Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as many
         as degrees of freedom. By default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all
-        joints with one coordinate.
+        joints with one coordinate, in the order of the joints in the model file.
 
         Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
         """
@@ -223,7 +226,9 @@ class Batch:
         Raises `ValueError` if a time is before the present time of its simulation or not finite; then none is advanced.
         """
     def coordinates(self, names: Optional[Sequence[str]] = None) -> list[str]:
-        """Names of the independent joint coordinates; with `names` these are chosen, as `Simulation.coordinates` does."""
+        """Names of the independent joint coordinates, in the order of the model file; with `names` these are chosen, as
+        `Simulation.coordinates` does.
+        """
     def reset(
         self,
         members: Union[None, Sequence[int], npt.NDArray[np.bool_], npt.NDArray[np.integer[Any]]] = None,
@@ -257,7 +262,7 @@ class Batch:
         """Warnings so far of each simulation. Each code is reported once by a `ModelWarning`, for the first simulation concerned."""
     @property
     def inputs(self) -> list[str]:
-        """Names of the inputs, in the order of `set(array)`."""
+        """Names of the inputs in the order of the model file, which is that of `set(array)`."""
     @property
     def names(self) -> list[str]:
         """Names of the columns, in the order of `values`."""

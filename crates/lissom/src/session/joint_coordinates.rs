@@ -1,6 +1,6 @@
 //! Independent joint coordinates, and sessions that start with given values and rates of them.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use lissom_core::assembly::AssemblyError;
 use lissom_core::consistent::mobility::mobility;
@@ -88,24 +88,26 @@ impl JointCoordinates {
 }
 
 impl Prepared {
-    /// Coordinates of joints by name.
-    fn coordinate_ids(&self) -> BTreeMap<&str, CoordinateId> {
-        let layout = self.system().layout();
-        let of_joints = self.lowered().names.coordinates.values().flatten();
-        of_joints.map(|&own| (layout.coordinate_name(own), own)).collect()
+    /// Coordinates of joints, in the order of the file.
+    fn of_joints(&self) -> impl Iterator<Item = CoordinateId> + Clone + '_ {
+        let names = &self.lowered().names;
+        let of_joints = names.joints.iter().filter_map(|joint| names.coordinates.get(joint));
+        let mut seen = BTreeSet::new();
+        of_joints.flatten().copied().filter(move |&own| seen.insert(own))
     }
 
     fn coordinate(&self, name: &str) -> Result<CoordinateId, JointCoordinateError> {
-        let ids = self.coordinate_ids();
+        let name_of = |own| self.system().layout().coordinate_name(own);
         let unknown = || JointCoordinateError::Unknown {
             name: name.to_owned(),
-            known: ids.keys().copied().collect::<Vec<_>>().join(", "),
+            known: self.of_joints().map(name_of).collect::<Vec<_>>().join(", "),
         };
-        ids.get(name).copied().ok_or_else(unknown)
+        self.of_joints().find(|&own| name_of(own) == name).ok_or_else(unknown)
     }
 
     /// Independent joint coordinates with these names. By default they are those of joints with a `joint_torque` or `joint_force`, or
-    /// otherwise those of all joints with one coordinate that is not prescribed, if they are as many as the degrees of freedom.
+    /// otherwise those of all joints with one coordinate that is not prescribed, if they are as many as the degrees of freedom. The
+    /// default order is that of the joints in the file.
     ///
     /// # Errors
     /// If there is no such coordinate, or there are not as many as degrees of freedom.
@@ -123,9 +125,12 @@ impl Prepared {
             let lowered = &self.lowered().names;
             let is_driven =
                 |own: &CoordinateId| system.drives().iter().any(|drive| drive.prescribed.coordinate == *own);
-            let actuated = sorted(lowered.actuators.iter().map(|&(own, _)| own));
-            let of_joints = lowered.coordinates.values().filter(|own| own.len() == 1).flatten();
-            let single = sorted(of_joints.copied().filter(|own| !is_driven(own)));
+            let with_actuator: BTreeSet<_> = lowered.actuators.iter().map(|&(own, _)| own).collect();
+            let alone: BTreeSet<_> =
+                lowered.coordinates.values().filter(|own| own.len() == 1).flatten().copied().collect();
+            let of_joints = self.of_joints();
+            let actuated: Vec<_> = of_joints.clone().filter(|own| with_actuator.contains(own)).collect();
+            let single: Vec<_> = of_joints.filter(|own| alone.contains(own) && !is_driven(own)).collect();
             let (actuated_count, single_count) = (actuated.len(), single.len());
             match [actuated, single].into_iter().find(|ids| check(ids).is_ok()) {
                 Some(ids) => ids,
@@ -189,11 +194,4 @@ impl Prepared {
         }
         Ok(self.session_from(state)?)
     }
-}
-
-fn sorted(ids: impl Iterator<Item = CoordinateId>) -> Vec<CoordinateId> {
-    let mut ids: Vec<CoordinateId> = ids.collect();
-    ids.sort_unstable();
-    ids.dedup();
-    ids
 }

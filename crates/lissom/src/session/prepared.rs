@@ -102,6 +102,11 @@ impl Prepared {
         &self.lowered.state
     }
 
+    /// Names of the inputs, in the order of the file.
+    pub fn inputs(&self) -> &[String] {
+        &self.lowered.names.inputs
+    }
+
     /// A session at the initial state of the model.
     ///
     /// # Errors
