@@ -257,11 +257,12 @@ impl Simulation {
         })
     }
 
-    /// Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as many
-    /// as degrees of freedom. By default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all
-    /// joints with one coordinate, in the order of the joints in the model file.
+    /// Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as
+    /// many as degrees of freedom of the parts that joints connect with them; other parts, such as free bodies, move apart. By
+    /// default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all joints with one
+    /// coordinate, in the order of the joints in the model file.
     ///
-    /// Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
+    /// Raises `ValueError` if a name is unknown, or they are not as many as those degrees of freedom.
     #[pyo3(signature = (names = None))]
     pub(crate) fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
         py.detach(|| Ok(self.lock_joints().choose(&self.prepared, names.as_deref())?.names().to_vec()))

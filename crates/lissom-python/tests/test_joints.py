@@ -268,6 +268,41 @@ def test_an_arm_has_its_equations_of_motion() -> None:
         sim.jacobian("hand")
 
 
+def test_a_free_object_stays_apart() -> None:
+    """An arm has the same equations of motion beside a ball, a door without motor and a ball on a spring from its tip."""
+    alone, scene = arm(3), arm(3)
+    scene.bodies["ball"] = Body(mass=5, inertia=[0.1, 0.2, 0.3], position=[1, 1, 1], velocity=[1, 2, 3])
+    scene.bodies["door"] = Body(mass=9, inertia=[1, 1, 1], position=[3, 0, 0])
+    scene.joints["hinge"] = entries.joints.Revolute(base="ground", tip="door", at=[2.5, 0, 0], axis=[0, 0, 1])
+    scene.outputs["ball"] = entries.outputs.Position(of="ball")
+    one, other = alone.simulation(), scene.simulation()
+    q, v = [0.4, -1.1, 0.7], [1.0, -2.0, 0.5]
+    for sim in (one, other):
+        assert sim.coordinates() == ["j0.angle", "j1.angle", "j2.angle"]
+        sim.reset(q, v)
+        assert np.allclose(sim.joint_state(), [q, v], rtol=0, atol=1e-12)
+    assert other[["ball.x", "ball.y", "ball.z"]].tolist() == [1, 1, 1]
+    assert np.allclose(one.mass_matrix(), other.mass_matrix(), rtol=1e-12, atol=1e-14)
+    assert np.allclose(one.bias(), other.bias(), rtol=1e-10, atol=1e-12)
+    assert np.allclose(one.jacobian("tip"), other.jacobian("tip"), rtol=0, atol=1e-12)
+    batch = scene.simulations(2)
+    batch.reset([0, 1], q, v)
+    assert np.allclose(batch[columns(3, "angle")], [q, q], rtol=0, atol=1e-12)
+    # The door has its own, and all of them together as well; a part of the arm has none, as its joints are coupled.
+    assert other.coordinates(["hinge.angle"]) == ["hinge.angle"]
+    assert other.mass_matrix() == pytest.approx(1 + 9 * 0.5**2)
+    other.coordinates(["hinge.angle", "j0.angle", "j1.angle", "j2.angle"])
+    assert np.allclose(other.mass_matrix()[1:, 0], 0, rtol=0, atol=1e-12)
+    with pytest.raises(ValueError, match="3 degrees of freedom, but 2"):
+        other.coordinates(["j0.angle", "j1.angle"])
+    # A spring couples forces, not motions.
+    scene.springs["cord"] = entries.springs.Point(base="link2", tip="ball", stiffness=100.0, length=0.1)
+    tied = scene.simulation()
+    tied.reset(q, v)
+    assert np.allclose(tied.mass_matrix(), one.mass_matrix(), rtol=1e-12, atol=1e-14)
+    assert np.abs(tied.bias() - one.bias()).max() > 1
+
+
 def test_computed_torques_give_the_accelerations() -> None:
     """With the torques of the inverse dynamics the joints accelerate as asked for."""
     sim = arm(7).simulation()

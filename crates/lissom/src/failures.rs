@@ -76,8 +76,8 @@ catalogued! {
         NoDefault { actuated => actuated, single => single, freedoms => freedoms } => "no-joint-coordinates" {
             cause: "the motion has {freedoms} degrees of freedom, but {actuated} joint coordinates have an actuator, and {single} joints have a single coordinate",
             remedy: "choose as many independent joint coordinates as degrees of freedom",
-            meaning: "Joint coordinates are chosen by default if those of actuators, or of joints with one coordinate, are as many as the degrees of freedom.",
-            advice: "Choose the coordinates by name. Models with beams or free bodies have more degrees of freedom than joint coordinates.",
+            meaning: "Joint coordinates are chosen by default if those of actuators, or of joints with one coordinate, are as many as the degrees of freedom of the parts that joints connect with them.",
+            advice: "Choose the coordinates by name. Parts that no joint connects with them, such as free bodies, need none.",
         }
         NotFinite { name => name, value => value } => "joint-coordinate-not-finite" {
             cause: "joint coordinate `{name}` cannot be {value}",

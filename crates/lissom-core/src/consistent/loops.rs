@@ -56,6 +56,39 @@ fn from(system: &System, kept: Vec<(usize, Vec<usize>)>) -> Vec<Loop> {
     loops.into_values().map(sorted).collect()
 }
 
+/// For each row of the layout and each multiplier the first row that it is coupled with by constraints or inertias.
+pub(crate) fn coupled_rows(system: &System, at: &Kinematics) -> Vec<usize> {
+    let (layout, pattern) = (system.layout(), system.pattern());
+    let count = layout.coordinate_count();
+    let mass = system.linearization_at(at).mass;
+    let mut parents: Vec<usize> = (0..layout.size()).collect();
+    let mut couple = |rows: &[usize]| {
+        for pair in rows.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|row| root(&mut parents, row));
+            parents[a.max(b)] = a.min(b);
+        }
+    };
+    for node in layout.nodes() {
+        let rows = layout.rows_of_node(node).iter().filter(|&&row| row != LOCKED);
+        couple(&rows.map(|&row| row as usize).collect::<Vec<_>>());
+    }
+    for constraint in system.constraints() {
+        let first = count + constraint.first_multiplier();
+        let mut rows = columns_of(constraint, layout);
+        rows.extend(first..first + constraint.equations());
+        couple(&rows);
+    }
+    for column in 0..count {
+        for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+            let row = pattern.row_indices()[position];
+            if row < count && mass[position] != 0.0 {
+                couple(&[row, column]);
+            }
+        }
+    }
+    (0..layout.size()).map(|row| root(&mut parents, row)).collect()
+}
+
 fn holds_nodes(constraint: &dyn Constraint) -> bool {
     !constraint.sides().is_empty()
 }

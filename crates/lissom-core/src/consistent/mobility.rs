@@ -7,7 +7,7 @@ use lissom_motion::Vector3;
 use super::loops;
 use super::redundancy::GEOMETRIC_TOLERANCE;
 use crate::joints::Equations;
-use crate::kinematics::Quantity;
+use crate::kinematics::{CoordinateId, Quantity};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
@@ -111,6 +111,23 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     result.rank = reduced.iter().filter(|row| !layout.is_of_velocities(row.multiplier)).count();
     result.freedoms = result.coordinates - result.rank;
     result
+}
+
+/// Degrees of freedom of all that constraints or inertias couple with these coordinates; other parts are not counted.
+pub fn coupled_freedoms(system: &System, state: &State, coordinates: &[CoordinateId]) -> usize {
+    let layout = system.layout();
+    let count = layout.coordinate_count();
+    let first = loops::coupled_rows(system, &state.kinematics);
+    let own: BTreeSet<usize> = coordinates.iter().map(|&own| first[layout.row_of_coordinate(own)]).collect();
+    let is_own =
+        |multiplier: usize| own.contains(&first[count + multiplier]) && !layout.is_of_velocities(multiplier);
+    let rows = first[..count].iter().filter(|row| own.contains(row)).count();
+    let equations = (0..layout.multiplier_count).filter(|&multiplier| is_own(multiplier)).count();
+    // What repeats others is coupled with them.
+    let redundant = mobility(system, state).redundant.into_iter();
+    let redundant =
+        redundant.filter(|own| own.self_stress.iter().all(|&(multiplier, _)| is_own(multiplier))).count();
+    rows + redundant - equations
 }
 
 /// Self-stress of the redundant row `repeating`, from the factors with which reduced rows were subtracted until it vanished.

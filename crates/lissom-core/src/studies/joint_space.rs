@@ -9,12 +9,13 @@
 //! [M Bᵀ; B 0] [a; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]                    h = -H Eᵀ a
 //! ```
 //!
+//! Parts that neither constraints nor inertias couple with z do not contribute: their columns of T are zero.
 //! Closed loops need no special treatment. H⁻¹ is the acceleration per unit force; it is singular if coordinates depend on each other.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias, scatter_rates};
-use crate::consistent::mobility::mobility;
+use crate::consistent::mobility::{coupled_freedoms, mobility};
 use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::integrator::pivoting_unless_augmented;
@@ -36,14 +37,16 @@ diagnostics! {
         Number {
             /// Number of coordinates.
             coordinates: usize,
-            /// Number of degrees of freedom.
+            /// Number of degrees of freedom of the parts that joints connect with them.
             freedoms: usize,
         } => "joint-space-number" {
-            cause: ("the motion has {freedoms} degrees of freedom, but {coordinates} joint coordinates were chosen"),
-            remedy: "choose as many independent joint coordinates as degrees of freedom",
-            meaning: "The rates of the chosen joint coordinates do not determine the velocities of all parts, or are not independent.",
-            advice: "Choose as many independent joint coordinates as `lissom check` reports degrees of freedom. Models with beams or free \
-                     bodies have none.",
+            cause: ("the parts that joints connect with them have {freedoms} degrees of freedom, but {coordinates} joint coordinates \
+                     were chosen"),
+            remedy: "choose as many independent joint coordinates as these parts have degrees of freedom",
+            meaning: "The rates of the chosen joint coordinates do not determine the velocities of the parts that joints connect with \
+                      them, or are not independent.",
+            advice: "Choose all independent coordinates of these parts. Parts that no joint connects with them, such as free bodies, \
+                     need none; an arm with a beam has more degrees of freedom than joint coordinates.",
         }
         /// A joint coordinate depends on the others, or is prescribed.
         Dependent {
@@ -69,12 +72,21 @@ impl From<InitialError> for JointSpaceError {
     }
 }
 
-/// Checks that there are as many `coordinates` as degrees of freedom.
+/// Checks that there are as many `coordinates` as degrees of freedom of all that is coupled with them, and none only without any
+/// degree of freedom.
 ///
 /// # Errors
 /// [`JointSpaceError::Number`] otherwise.
-pub fn check_number(system: &System, state: &State, coordinates: usize) -> Result<(), JointSpaceError> {
-    let freedoms = mobility(system, state).freedoms;
+pub fn check_number(
+    system: &System,
+    state: &State,
+    coordinates: &[CoordinateId],
+) -> Result<(), JointSpaceError> {
+    let freedoms = match coordinates {
+        [] => mobility(system, state).freedoms,
+        _ => coupled_freedoms(system, state, coordinates),
+    };
+    let coordinates = coordinates.len();
     if freedoms == coordinates { Ok(()) } else { Err(JointSpaceError::Number { coordinates, freedoms }) }
 }
 

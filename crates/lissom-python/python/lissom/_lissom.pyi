@@ -137,11 +137,12 @@ class Simulation:
         consistent start with them; then none is set.
         """
     def coordinates(self, names: Optional[Sequence[str]] = None) -> list[str]:
-        """Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as many
-        as degrees of freedom. By default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all
-        joints with one coordinate, in the order of the joints in the model file.
+        """Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen,
+        as many as degrees of freedom of the parts that joints connect with them; other parts, such as free bodies, move apart. By
+        default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all joints with one
+        coordinate, in the order of the joints in the model file.
 
-        Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
+        Raises `ValueError` if a name is unknown, or they are not as many as those degrees of freedom.
         """
     def joint_state(self) -> tuple[Array, Array]:
         """Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`."""

@@ -24,7 +24,7 @@ pub enum JointCoordinateError {
         /// The names that are possible.
         known: String,
     },
-    /// Neither the coordinates of actuators nor the single coordinates of joints are as many as the degrees of freedom.
+    /// Neither the coordinates of actuators nor the single coordinates of joints are as many as the degrees of freedom of their parts.
     NoDefault {
         /// Number of coordinates of joints with actuators.
         actuated: usize,
@@ -63,7 +63,7 @@ impl From<AssemblyError> for JointCoordinateError {
     }
 }
 
-/// Independent joint coordinates, as many as the degrees of freedom.
+/// Independent joint coordinates, as many as the degrees of freedom of the parts that joints connect with them.
 #[derive(Clone, Debug)]
 pub struct JointCoordinates {
     names: Vec<String>,
@@ -106,17 +106,17 @@ impl Prepared {
     }
 
     /// Independent joint coordinates with these names. By default they are those of joints with a `joint_torque` or `joint_force`, or
-    /// otherwise those of all joints with one coordinate that is not prescribed, if they are as many as the degrees of freedom. The
-    /// default order is that of the joints in the file.
+    /// otherwise those of all joints with one coordinate that is not prescribed, if they are as many as the degrees of freedom of the
+    /// parts that joints connect with them. The default order is that of the joints in the file.
     ///
     /// # Errors
-    /// If there is no such coordinate, or there are not as many as degrees of freedom.
+    /// If there is no such coordinate, or there are not as many as degrees of freedom of the parts that joints connect with them.
     pub fn joint_coordinates(
         &self,
         names: Option<&[String]>,
     ) -> Result<JointCoordinates, JointCoordinateError> {
         let system = self.system();
-        let check = |ids: &[CoordinateId]| check_number(system, self.state(), ids.len());
+        let check = |ids: &[CoordinateId]| check_number(system, self.state(), ids);
         let ids = if let Some(names) = names {
             let ids = names.iter().map(|name| self.coordinate(name)).collect::<Result<Vec<_>, _>>()?;
             check(&ids)?;
