@@ -395,7 +395,7 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 406;
+    const MAX_CONSTANTS: usize = 407;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 11] = [
@@ -409,7 +409,7 @@ mod tests {
         ("lissom", 25_400),
         ("lissom-cli", 4900),
         ("lissom-fmi", 660),
-        ("lissom-python", 2170),
+        ("lissom-python", 2180),
     ];
 
     /// Public modules at the top of the facade.

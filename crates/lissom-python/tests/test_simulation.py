@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import time
 from typing import Any
 
 import numpy as np
@@ -136,6 +137,61 @@ def test_warnings_are_issued_while_stepping() -> None:
     with pytest.warns(lissom.ModelWarning) as of_time:
         model.simulation().step_to(sim.end)
     assert sorted(str(warning.message).split(":")[0] for warning in of_time) == codes
+
+
+#: An arm whose shoulder is driven by its own rate.
+UNSTABLE = """
+lissom = 1
+[bodies.upper]
+mass = 1.5
+inertia = [0.2, 0.12, 0.1]
+position = [0, 0, -0.4]
+[bodies.lower]
+mass = 0.7
+inertia = [0.06, 0.05, 0.07]
+position = [0, 0, -1.25]
+[joints]
+shoulder = {{ kind = "revolute", base = "ground", tip = "upper", at = [0, 0, 0], axis = [0, -1, 0] }}
+elbow = {{ kind = "revolute", base = "upper", tip = "lower", at = [0, 0, -0.9], axis = [0, -1, 0] }}
+[loads]
+drive = {{ kind = "joint_torque", joint = "shoulder", torque = "{gain}*shoulder.rate + 1" }}
+[outputs]
+shoulder = {{ kind = "relative", of = "shoulder" }}
+[analysis]
+kind = "dynamics"
+end = 1
+{control}
+"""
+
+
+@pytest.mark.parametrize("control", ["relative_tolerance = 1e-4", "step = 1e-5"])
+def test_an_unstable_loop_ends(control: str) -> None:
+    """The steps of a motion that grows without bound would become shorter without end."""
+    model = lissom.loads(UNSTABLE.format(gain=1e5, control=control))
+    sim, began = model.simulation(), time.monotonic()
+    with pytest.raises(lissom.SolutionError, match="(?s)coordinate `(shoulder|elbow).angle`.*feedback") as caught:
+        sim.step_to(1e-3)
+    assert time.monotonic() - began < 60
+    error = caught.value
+    assert error.code == "motion-diverges" and error.time is not None and 0 < error.time < 1e-3
+    assert error.part in ("shoulder.angle", "elbow.angle") and sim.time < 1e-3 and np.isfinite(sim.values()).all()
+    batch = model.simulations(2)
+    with pytest.warns(lissom.SolutionWarning, match="diverges"):
+        batch.step_to(1e-3)
+    assert batch.failed.all() and batch.errors[1].code == "motion-diverges"
+    # The other sign is a damper.
+    stable = lissom.loads(UNSTABLE.format(gain=-1e5, control=control)).simulation()
+    stable.step_to(1e-3)
+    assert stable.time == 1e-3
+
+
+def test_an_unstable_controller_ends() -> None:
+    """A state that is infinite after a millisecond."""
+    text = UNSTABLE.format(gain=0, control="relative_tolerance = 1e-4")
+    sim = lissom.loads(text + '[states]\ncharge = { start = 1, derivative = "1e3*charge*charge" }\n').simulation()
+    with pytest.raises(lissom.SolutionError, match="state `charge`"):
+        sim.step_to(2e-3)
+    assert sim.time == pytest.approx(1e-3, rel=1e-6)
 
 
 def test_inputs_are_set_from_outside() -> None:

@@ -228,6 +228,25 @@ diagnostics! {
             meaning: "A node rotates by more than a quarter of a turn in a step, which is too long for the angular velocity.",
             advice: "Use a smaller step, or `relative_tolerance`.",
         }
+        /// A velocity is beyond that of any machine.
+        Diverges {
+            /// Time [s].
+            time: f64,
+            /// The coordinate or node that moves fastest.
+            fastest: Subject,
+            /// Its velocity [m/s, rad/s].
+            rate: f64,
+        } => "motion-diverges" {
+            time: *time,
+            subject: fastest,
+            cause: ("at t = {time} s the motion diverges: the velocity of {fastest} is {rate:.1e} (m/s or rad/s), beyond that of any \
+                    machine"),
+            remedy: "check the feedback that acts on it (sign and size of its gains, the period of its samples, which input belongs to \
+                which joint), masses and units; an event with `stop` ends the run before",
+            meaning: "A part moves faster than light or rotates by more than a million radians per second: a feedback loop is unstable, or \
+                an input, a force or a mass has a wrong magnitude.",
+            advice: "Check sign and size of the gains, the period of the samples, which input belongs to which joint, masses and units.",
+        }
         /// Nodes of an element are turned against each other by nearly half a turn.
         ElementTurns {
             /// Time [s].

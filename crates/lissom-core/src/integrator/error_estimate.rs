@@ -203,15 +203,14 @@ impl Integrator {
     }
 
     /// The unknown with the largest estimated error of the last attempt.
-    pub(crate) fn most_inaccurate(&self, system: &System) -> Subject {
-        let errors = self
-            .work
-            .error
-            .filtered
-            .iter()
-            .zip(&self.work.units.coordinates)
-            .map(|(error, size)| (error * size).abs());
-        let most = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    pub(crate) fn most_inaccurate(&self, system: &System, at: &Kinematics) -> Subject {
+        let (error, units) = (&self.work.error, &self.work.units.coordinates);
+        let all = error.filtered.iter().zip(units).map(|(error, size)| (error * size).abs());
+        // States are not filtered, and relative to their magnitude.
+        let states = system.layout().states().map(|(row, own, magnitude)| {
+            (row, (error.unfiltered[row] / magnitude.max(at.coordinates[own].value.abs())).abs())
+        });
+        let most = all.enumerate().chain(states).max_by(|a, b| a.1.total_cmp(&b.1));
         system.layout().subject_of(most.map_or(0, |(row, _)| row))
     }
 }

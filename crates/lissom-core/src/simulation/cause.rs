@@ -3,11 +3,41 @@
 use crate::errors::StepError;
 use crate::errors::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE};
 use crate::judge::{MAX_TURN, degenerate_joint};
-use crate::kinematics::{NodeId, Subject};
+use crate::kinematics::{LOCKED, NodeId, Quantity, Subject};
 use crate::settings::Problem;
 use crate::simulation::Simulation;
 
+/// Velocities beyond those of any machine: the speed of light [m/s], and about ten times the fastest rotors [rad/s]. The steps that
+/// resolve a diverging motion become shorter without end.
+const MAX_RATES: [f64; 2] = [3e8, 1e6];
+
 impl Simulation {
+    /// Fails if a velocity at the end of the attempt is beyond that of any machine.
+    pub(crate) fn check_divergence(&self) -> Result<(), StepError> {
+        let (layout, at) = (self.system.layout(), &self.attempt.end.kinematics);
+        let excess = |(row, rate): (usize, f64)| match layout.quantities()[row] {
+            Quantity::Length => (rate.abs() / MAX_RATES[0], row, rate),
+            Quantity::Angle => (rate.abs() / MAX_RATES[1], row, rate),
+            Quantity::State => (0.0, row, rate),
+        };
+        let of_coordinates = layout.coordinate_rows.iter().zip(&at.coordinates);
+        let of_coordinates = of_coordinates.map(|(&row, own)| (row as usize, own.rate));
+        let of_nodes = layout.node_rows.iter().zip(&at.nodes);
+        let of_nodes = of_nodes.flat_map(|(rows, node)| rows.iter().copied().zip(node.twist.iter().copied()));
+        let of_nodes = of_nodes.filter(|&(row, _)| row != LOCKED).map(|(row, rate)| (row as usize, rate));
+        let beyond = |own: &(f64, usize, f64)| own.0 > 1.0;
+        let of_joint = of_coordinates.map(excess).max_by(|a, b| a.0.total_cmp(&b.0));
+        let fastest = of_joint.filter(beyond).or_else(|| {
+            let of_node = of_nodes.map(excess).find(beyond)?;
+            // A joint is named rather than the parts that it moves.
+            of_joint.filter(|own| own.0 > 0.1).or(Some(of_node))
+        });
+        fastest.map_or(Ok(()), |(_, row, rate)| {
+            let fastest = layout.subject_of(row);
+            Err(StepError::Diverges { time: at.time, fastest, rate: rate.abs() })
+        })
+    }
+
     /// Replaces the failure of a step by its likely cause: a joint or a closed loop close to a singularity, or a switching force.
     /// `no_part` is true if the shortest parts of the step were tried too.
     pub(crate) fn with_cause(&mut self, error: StepError, no_part: bool) -> StepError {
@@ -92,6 +122,8 @@ pub(crate) fn more_specific(first: Option<StepError>, later: StepError) -> StepE
     let is_generic =
         |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });
     match first {
+        // Parts that rotate too far for a step are a consequence.
+        Some(StepError::TurnsTooFar { .. }) if matches!(later, StepError::Diverges { .. }) => later,
         Some(first) if !is_generic(&first) || is_generic(&later) => first,
         _ => later,
     }

@@ -241,6 +241,9 @@ impl Simulation {
             return Ok(Verdict::Shorten);
         }
         let verdict = self.end_at_event(size, progress.watch, progress.report)?;
+        if matches!(verdict, Verdict::Accept(_)) && self.settings.scheme.dynamic {
+            self.check_divergence()?;
+        }
         if let Verdict::Accept(_) = verdict
             && self.control.by_error().is_some()
         {
@@ -338,7 +341,7 @@ impl Simulation {
                 unknown: self.system.layout().subject_of(row),
             };
         }
-        let unknown = self.integrator.most_inaccurate(&self.system);
+        let unknown = self.integrator.most_inaccurate(&self.system, &self.state.kinematics);
         StepError::TooInaccurate { time, size, unknown }
     }
 }
