@@ -12,7 +12,7 @@ use lissom::core::simulation::InputError;
 use lissom::{Diagnose, Diagnostic, Prepared, Session, SessionSnapshot, with_code};
 use numpy::ndarray::ArrayViewD;
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyReadonlyArray1};
-use pyo3::exceptions::{PyIndexError, PyKeyError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use rayon::prelude::*;
@@ -453,7 +453,7 @@ impl Batch {
         let mut members = self.lock(py);
         let first = &mut members[0].cached;
         if let Some(name) = names.iter().find(|name| self.names.value(first, name).is_none()) {
-            return Err(PyKeyError::new_err(self.names.unknown(name)));
+            return Err(self.names.unknown(&first.session, name));
         }
         if names.iter().any(|name| self.names.recovers(&first.session, name)) {
             each(py, &mut members, |_, member| {

@@ -3,7 +3,10 @@
 use std::collections::HashMap;
 
 use lissom::core::errors::Warning;
+use lissom::model::suggestion;
 use lissom::{Column, JointCoordinateError, Prepared, Session, StartError, with_code};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
 
 /// Joint values, chosen coordinates and rates with which a session began; none for the start of the model.
 pub(crate) type Beginning = Option<(Vec<(String, f64)>, Option<Vec<String>>, Vec<(String, f64)>)>;
@@ -105,8 +108,11 @@ impl ColumnNames {
         self.indices.get(name).is_some_and(|&column| session.recovers(column))
     }
 
-    /// The message about a name that is none of them.
-    pub(crate) fn unknown(&self, name: &str) -> String {
-        format!("`{name}` is no column; the columns are {}", self.all.join(", "))
+    /// The `KeyError` of a name that is none of them, which suggests a similar one.
+    pub(crate) fn unknown(&self, session: &Session, name: &str) -> PyErr {
+        let known = self.all.iter().map(String::as_str).chain(session.signal_names());
+        let help =
+            suggestion(name, known).unwrap_or_else(|| format!("the columns are {}", self.all.join(", ")));
+        PyKeyError::new_err(format!("`{name}` is no column, signal, input or state; {help}"))
     }
 }

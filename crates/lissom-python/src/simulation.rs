@@ -7,7 +7,7 @@ use lissom::core::simulation::SnapshotError;
 use lissom::core::studies::joint_space::JointMotion;
 use lissom::{Document, Prepared, Session, SessionSnapshot, with_code};
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1, PyArrayMethods};
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use pyo3::types::{PyBytes, PyFloat};
@@ -109,7 +109,7 @@ impl Simulation {
 
     /// Present value of a column, a signal, an input or a state.
     fn value(&self, inner: &mut CachedSession, name: &str) -> PyResult<f64> {
-        self.names.value(inner, name).ok_or_else(|| PyKeyError::new_err(self.names.unknown(name)))
+        self.names.value(inner, name).ok_or_else(|| self.names.unknown(&inner.session, name))
     }
 }
 

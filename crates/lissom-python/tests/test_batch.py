@@ -94,6 +94,8 @@ def test_inputs_have_the_shapes_of_numpy() -> None:
     assert np.array_equal(batch[batch.inputs], before) and not batch.time.any()
     with pytest.raises(KeyError, match="cart.x"):
         batch["cart"]
+    with pytest.raises(KeyError, match="did you mean `brake`"):
+        batch[["cart.x", "brakes"]]
     with pytest.raises(ValueError, match="`count` is 0"):
         lissom.loads(CART).simulations(0)
 

@@ -157,6 +157,10 @@ def test_mistakes_are_told() -> None:
     model = stone()
     with pytest.raises(AttributeError):
         model.jonts = {}  # type: ignore[attr-defined]
+    with pytest.raises(KeyError, match="`stne` is no entry; did you mean `stone`"):
+        model.point_masses["stne"]
+    with pytest.raises(KeyError, match="did you mean `bob`"):
+        lissom.load(PENDULUM).point_masses["bop"]
     model.joints["a"] = Body(mass=1, inertia=[1, 1, 1])  # type: ignore[assignment]
     with pytest.raises(TypeError, match="`joints.a` is Body"):
         model.run()

@@ -76,6 +76,8 @@ def test_a_simulation_goes_to_any_time() -> None:
             sim.step_to(time)
     with pytest.raises(KeyError, match="bob.x"):
         sim["bob"]
+    with pytest.raises(KeyError, match="no column, signal, input or state; did you mean `bob.x`"):
+        sim["bob.xx"]
     assert "0.1234" in repr(sim)
 
 

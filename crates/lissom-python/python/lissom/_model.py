@@ -19,7 +19,7 @@ from ._linear import LinearModel, linear_model
 from ._lissom import Batch, NativeModel, Simulation
 from ._result import Result
 from ._tables import Files
-from .entries._entry import written
+from .entries._entry import Entries, written
 from .entries._model_tables import ORDER, ModelTables
 
 Progress = Union[bool, Callable[[float, float], object]]
@@ -65,7 +65,7 @@ class Model(ModelTables):
                 near = difflib.get_close_matches(key, ORDER, n=1)
                 help = f"did you mean `{near[0]}`?" if near else "it has " + ", ".join(ORDER[1:])
                 raise TypeError(f"a model has no `{key}`; {help}")
-            self._set(key, dict(of) if isinstance(of, Mapping) else of)
+            self._set(key, Entries(of) if isinstance(of, Mapping) else of)
 
     @classmethod
     def _of(cls, native: NativeModel) -> Model:

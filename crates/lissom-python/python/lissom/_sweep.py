@@ -12,6 +12,7 @@ import numpy as np
 from . import _toml
 from ._lissom import NativeSweep
 from ._model import Model, Progress, _at_least, _shown
+from ._tables import known
 
 if TYPE_CHECKING:
     import pandas
@@ -48,10 +49,7 @@ class SweepTable:
         return np.array(self["member"][self["state"] != "solved"])
 
     def __getitem__(self, name: str) -> np.ndarray[Any, Any]:
-        try:
-            return self._columns[name]
-        except KeyError:
-            raise KeyError(f"`{name}` is no column; the columns are {', '.join(self._columns)}") from None
+        return self._columns[known(name, self._columns, "column")]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)

@@ -64,7 +64,7 @@ def known(name: str, among: Iterable[str], what: str) -> str:
     if name in names:
         return name
     near = difflib.get_close_matches(name, names, n=1)
-    help = f"did you mean `{near[0]}`?" if near else f"the {what}s are " + ", ".join(names)
+    help = f"did you mean `{near[0]}`?" if near else "known here: " + ", ".join(names)
     raise KeyError(f"`{name}` is no {what}; {help}")
 
 

@@ -307,6 +307,11 @@ impl Session {
         values.get(index).copied()
     }
 
+    /// Names of signals, inputs and states.
+    pub fn signal_names(&self) -> impl Iterator<Item = &str> {
+        self.signals.keys().map(String::as_str)
+    }
+
     /// Sets an input from now on, until it is set again.
     ///
     /// # Errors

@@ -8,6 +8,7 @@ from dataclasses import MISSING, fields
 from typing import Any, ClassVar, Union
 
 from .. import _toml
+from .._tables import known
 
 #: A number, or an expression.
 Number = Union[float, str]
@@ -68,7 +69,7 @@ class Entry:
 
                 values.setdefault("motions", {})[key] = PartMotion._of(of)
             else:
-                raise KeyError(f"`{key}` is no key of {cls.__name__}")
+                known(key, own, f"key of {cls.__name__}")
         return cls(**values)
 
     def __str__(self) -> str:
@@ -78,6 +79,13 @@ class Entry:
 def lines(table: Mapping[str, Any]) -> list[str]:
     """A line per key."""
     return [f"{_toml.key(key)} = {_toml.value(of)}" for key, of in table.items()]
+
+
+class Entries(dict[str, Any]):
+    """Entries of a table by name. `KeyError` suggests a similar name."""
+
+    def __missing__(self, name: str) -> Any:
+        return known(name, self, "entry")
 
 
 class ModelTree:
@@ -98,7 +106,7 @@ class ModelTree:
         return self._tables
 
     def _table(self, name: str) -> Any:
-        return self._opened().setdefault(name, {})
+        return self._opened().setdefault(name, Entries())
 
     def _value(self, name: str) -> Any:
         return self._opened().get(name)
@@ -118,11 +126,11 @@ def read(text: str) -> dict[str, Any]:
     for name, of in _toml.parse(text).items():
         classes = CLASSES.get(name)
         if classes is None:
-            tables[name] = of
+            tables[name] = Entries(of) if isinstance(of, dict) else of
         elif name in SINGLE:
             tables[name] = entry(classes, of)
         else:
-            tables[name] = {key: entry(classes, inner) for key, inner in of.items()}
+            tables[name] = Entries({key: entry(classes, inner) for key, inner in of.items()})
     tables.pop("lissom", None)
     return tables
 
