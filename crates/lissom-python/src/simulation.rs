@@ -234,15 +234,15 @@ impl Simulation {
     ///
     /// Raises `ValueError` if the model has no such input or a value is not finite, `SolutionError` if there is no
     /// consistent start with them; then none is set.
-    #[pyo3(signature = (inputs, value = None))]
-    fn set(&self, py: Python<'_>, inputs: Inputs, value: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let needed = || PyValueError::new_err("an input is set with its value: `set(name, value)`");
+    #[pyo3(signature = (inputs, values = None))]
+    fn set(&self, py: Python<'_>, inputs: Inputs, values: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let needed = || PyValueError::new_err("inputs are set with their values: `set(names, values)`");
         let given: Vec<(String, f64)> = match inputs {
-            Inputs::One(name) => vec![(name, value.ok_or_else(needed)?.extract()?)],
-            Inputs::All(inputs) if value.is_none() => inputs.into_iter().collect(),
+            Inputs::One(name) => vec![(name, values.ok_or_else(needed)?.extract()?)],
+            Inputs::All(inputs) if values.is_none() => inputs.into_iter().collect(),
             Inputs::All(_) => return Err(PyValueError::new_err("a dictionary contains the values already")),
             Inputs::Named(names) => {
-                let values: Vec<f64> = value.ok_or_else(needed)?.extract()?;
+                let values: Vec<f64> = values.ok_or_else(needed)?.extract()?;
                 if values.len() != names.len() {
                     let counts = format!("there are {} inputs and {} values", names.len(), values.len());
                     return Err(PyValueError::new_err(counts));

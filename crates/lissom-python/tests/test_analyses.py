@@ -185,6 +185,17 @@ def test_campbell_diagrams_are_those_of_the_command_line(program: Program, colum
         found.line(9)
 
 
+def test_arguments_have_the_names_of_the_interface(column: Path) -> None:
+    """`vary` is a path, `points` a number of values, `count` a number of modes, `values` what inputs are set to."""
+    model = lissom.load(column)
+    diagram = model.campbell(vary="parameters.load", start=1, end=20, points=3, count=2)
+    assert diagram.summary["values"] == 3 and np.array_equal(diagram.line(1)[0], [1, 10.5, 20])
+    with pytest.raises(ValueError, match="`points` is 1"):
+        model.campbell("parameters.load", 1, 20, points=1)
+    with pytest.raises(ValueError, match="`points` is 1"):
+        model.response("loads.side", "tip.u3", 1, 2, points=1)
+
+
 def test_linear_models_are_those_of_the_command_line(program: Program, column: Path, tmp_path: Path) -> None:
     out = left(program, tmp_path / "linear", "linearize", column, "--input", "loads.side", "--output", "tip")
     model = lissom.load(column)

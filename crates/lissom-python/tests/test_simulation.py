@@ -219,8 +219,11 @@ end = 2
 step = 0.1
 """
     sim = lissom.loads(text).simulation()
+    sim.set("thrust", values=3.0)
     sim.set("thrust", 4.0)
-    assert sim["thrust"] == 4.0
+    assert sim["thrust"] == 4.0 and sim.inputs == ["thrust"]
+    with pytest.raises(KeyError, match="did you mean `thrust`"):
+        sim["trust"]
     sim.step_to(1.0)
     kept = sim.snapshot()
     sim.set("thrust", -4.0)

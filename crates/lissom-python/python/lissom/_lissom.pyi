@@ -124,11 +124,11 @@ class Simulation:
     def inputs(self) -> list[str]:
         """Names of the inputs, in the order of the model file."""
     @overload
-    def set(self, inputs: str, value: float) -> None: ...
+    def set(self, inputs: str, values: float) -> None: ...
     @overload
-    def set(self, inputs: Mapping[str, float], value: None = None) -> None: ...
+    def set(self, inputs: Mapping[str, float], values: None = None) -> None: ...
     @overload
-    def set(self, inputs: Sequence[str], value: Union[Sequence[float], Array]) -> None:
+    def set(self, inputs: Sequence[str], values: Union[Sequence[float], Array]) -> None:
         """Sets inputs of the model from now on, until they are set again: `set("torque", 0.5)`, `set({"torque": 0.5, "brake": 1})`,
         or `set(names, values)` with a list of names and a list or array of as many values. Several inputs that are set at once
         cost as much as one.

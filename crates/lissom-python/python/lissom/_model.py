@@ -263,10 +263,10 @@ class Model(ModelTables):
 
     def campbell(
         self,
-        path: str,
+        vary: str,
         start: float,
         end: float,
-        values: int = 41,
+        points: int = 41,
         *,
         count: int = 8,
         rays: Sequence[int] = (1, 2, 3),
@@ -274,16 +274,16 @@ class Model(ModelTables):
         """Natural frequencies over a number of the model file, as `lissom campbell` finds them.
 
         Args:
-            path: the number, as `parameters.speed`.
+            vary: path of the number, such as `parameters.speed`.
             start: its first value.
             end: its last value.
-            values: how many values.
-            count: how many modes, the lowest first.
+            points: number of values.
+            count: number of modes, the lowest first.
             rays: multiples of the rotation whose crossings are critical speeds.
         """
-        vary = {"path": path, "from": float(start), "to": float(end), "values": _at_least(2, values, "values")}
+        variation = {"path": vary, "from": float(start), "to": float(end), "values": _at_least(2, points, "points")}
         multiples = [_at_least(1, ray, "rays") for ray in rays]
-        return self._warned(Campbell(self._analysed("campbell", vary=vary, count=_at_least(1, count, "count"), rays=multiples)))
+        return self._warned(Campbell(self._analysed("campbell", vary=variation, count=_at_least(1, count, "count"), rays=multiples)))
 
     def response(
         self,
