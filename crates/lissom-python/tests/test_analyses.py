@@ -14,6 +14,7 @@ import scipy.io
 import scipy.signal
 
 import lissom
+from lissom import entries
 from conftest import PENDULUM, ROOT
 
 Program = Callable[..., "subprocess.CompletedProcess[str]"]
@@ -194,6 +195,40 @@ def test_arguments_have_the_names_of_the_interface(column: Path) -> None:
         model.campbell("parameters.load", 1, 20, points=1)
     with pytest.raises(ValueError, match="`points` is 1"):
         model.response("loads.side", "tip.u3", 1, 2, points=1)
+
+
+def test_reductions_are_those_of_the_command_line(program: Program, column: Path, tmp_path: Path) -> None:
+    asked = ("--interfaces", "bar.start,bar.end", "--modes", 3, "--modes-alone", "--name", "rod")
+    out = left(program, tmp_path / "reduced", "reduce", column, *asked)
+    model = lissom.load(column)
+    found = model.reduce(["bar.start", "bar.end"], 3, corrections=False, name="rod")
+    same(found, out)
+    size = 12 + 3
+    assert found.name == "rod" and found.interfaces == ["bar_start", "bar_end"] and len(found.frequencies) == 3
+    arrays = np.load(out / "rod.npz")
+    assert found.M.shape == (size, size) and np.array_equal(found.M, arrays["mass"]) and np.array_equal(found.K, arrays["stiffness"])
+    # Clamped at its only interface, a rod has the modes of the superelement with fixed interfaces.
+    rod = lissom.load(ROOT / "examples" / "connecting-rod.toml")
+    fixed = rod.reduce("rod.start", 4, corrections=False)
+    assert fixed.M.shape == (10, 10)
+    free = rod.reduce(["rod.start", "rod.end"], 4)
+    assert free.summary["corrections"] > 0 and len(free.K) == 12 + 4 + free.summary["corrections"]
+    rod.joints["root"] = entries.joints.Clamp(base="ground", tip="rod.start")
+    wanted = rod.modes(3).frequencies
+    assert np.allclose(fixed.frequencies[:3], wanted, rtol=1e-6, atol=0)
+    # The folder is what a model uses.
+    free.to_folder(tmp_path / "rod")
+    text = free.files[f"{free.name}.toml"] + (
+        f'[joints.root]\nkind = "clamp"\nbase = "ground"\ntip = "{free.name}.{free.interfaces[0]}"\n'
+        f'[outputs.tip]\nkind = "displacement"\nof = "{free.name}.{free.interfaces[1]}"\n'
+        '[analysis]\nkind = "dynamics"\nend = 0.1\nstep = 0.01\n'
+    )
+    again = lissom.loads(text, str(tmp_path / "rod" / "model.toml")).modes(2)
+    assert np.allclose(again.frequencies, wanted[:2], rtol=1e-2, atol=0)
+    with pytest.raises(lissom.ModelError, match="bar.middle"):
+        model.reduce(["bar.middle"])
+    with pytest.raises(ValueError, match="`count` is -1"):
+        model.reduce("bar.start", -1)
 
 
 def test_linear_models_are_those_of_the_command_line(program: Program, column: Path, tmp_path: Path) -> None:

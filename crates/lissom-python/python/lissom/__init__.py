@@ -8,7 +8,7 @@
 All quantities are in SI units. Exceptions are `ModelError` and `SolutionError`, with the texts of the command line.
 """
 
-from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
+from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Reduced, Response
 from ._animation import Animation
 from ._linear import LinearModel, StateSpace
 from ._lissom import Batch, LissomError, ModelError, Simulation, SolutionError, __version__
@@ -30,6 +30,7 @@ __all__ = [
     "ModelWarning",
     "Modes",
     "Path",
+    "Reduced",
     "Response",
     "Result",
     "Simulation",

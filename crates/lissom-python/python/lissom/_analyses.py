@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import pathlib
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +12,7 @@ import numpy as np
 
 from ._animation import Animation
 from ._result import Result
-from ._tables import Files, Table, known
+from ._tables import Files, Table, full, known
 from ._types import Array
 
 if TYPE_CHECKING:
@@ -98,6 +100,31 @@ class Buckling(_Shapes):
 
     def __repr__(self) -> str:
         return f"<lissom.Buckling: {len(self)} load factors>"
+
+
+class Reduced(_Found):
+    """A superelement: matrices over six displacements per interface [m, rad] and one coordinate per mode and correction."""
+
+    def __init__(self, files: Files) -> None:
+        super().__init__(files)
+        #: Name of the superelement.
+        self.name = next(name for name in self._texts if name.endswith(".toml")).removesuffix(".toml")
+        #: Names of the interfaces, in the order of the matrices.
+        self.interfaces: list[str] = list(self.summary["interfaces"])
+        #: Frequencies of the modes with fixed interfaces [Hz], of shape (modes,).
+        self.frequencies: Array = np.array(self.summary["frequencies"], dtype=np.float64)
+        #: Mass and stiffness, of shape (coordinates, coordinates).
+        self.M: Array = full(self._texts[f"{self.name}-mass.mtx"])
+        self.K: Array = full(self._texts[f"{self.name}-stiffness.mtx"])
+
+    def to_folder(self, path: str | os.PathLike[str]) -> None:
+        """Writes the matrices and `NAME.toml`, which uses them, to a folder, for `include` and `[parts]` of a model."""
+        os.makedirs(path, exist_ok=True)
+        for name, text in self._texts.items():
+            pathlib.Path(path, name).write_text(text, encoding="utf-8", newline="\n")
+
+    def __repr__(self) -> str:
+        return f"<lissom.Reduced {self.name!r}: {len(self.M)} coordinates, {len(self.interfaces)} interfaces>"
 
 
 class Gradient(_Found):

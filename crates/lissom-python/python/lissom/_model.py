@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar, Union
 
 from . import _lissom, _toml
-from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
+from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Reduced, Response
 from ._driven import InputFunction, driven
 from ._linear import LinearModel, linear_model
 from ._lissom import Batch, NativeModel, Simulation
@@ -25,7 +25,7 @@ from .entries._model_tables import ORDER, ModelTables
 Progress = Union[bool, Callable[[float, float], object]]
 #: `"static"`, `"undeformed"`, `"rotation"` or a time [s].
 About = Union[str, float]
-Report = TypeVar("Report", Modes, Buckling, Campbell, Response, LinearModel)
+Report = TypeVar("Report", Modes, Reduced, Buckling, Campbell, Response, LinearModel)
 
 
 class ModelWarning(UserWarning):
@@ -233,6 +233,33 @@ class Model(ModelTables):
         """Load factors at which the model buckles, by a linear estimate, as `lissom buckling` finds them."""
         return self._warned(Buckling(self._analysed("buckling", count=_at_least(1, count, "count"))))
 
+    def reduce(
+        self,
+        interfaces: str | Sequence[str],
+        count: int = 10,
+        *,
+        parts: str | Sequence[str] = (),
+        corrections: bool = True,
+        about: About = "static",
+        name: str | None = None,
+    ) -> Reduced:
+        """Flexible parts as a superelement with a few interface nodes and modes, as `lissom reduce` computes it.
+
+        Args:
+            interfaces: nodes for joints, such as `["beam.start", "beam.end"]`; the floating frame is attached to the first one.
+            count: number of modes with fixed interfaces, 0 at least.
+            parts: parts to be reduced; default: all.
+            corrections: whether shapes compensate for truncated modes where loads and rotation change the stiffness.
+            about: the state, as for `modes`, without `"rotation"`.
+            name: name of the superelement; default: that of the only part, or of the model file.
+
+        Raises:
+            ModelError: if the request is invalid for the model. SolutionError: if there is no such state, or the parts are not one
+            elastic assembly.
+        """
+        chosen = {"parts": _names(parts), "interfaces": _names(interfaces), "modes": _at_least(0, count, "count")}
+        return self._warned(Reduced(self._analysed("reduce", **chosen, corrections=corrections, about=_about(about), name=name)))
+
     def path(self, **analysis: Any) -> Path:
         """Follows the equilibria under the loads times a load factor, as `lissom run` does for an analysis of kind `path`.
 
@@ -322,7 +349,7 @@ class Model(ModelTables):
         files = self._analysed("linearize", inputs=_names(inputs), outputs=_names(outputs), about=_about(about))
         return self._warned(linear_model(files))
 
-    def _analysed(self, name: str, **request: Any) -> Files:
+    def _analysed(self, name: str, /, **request: Any) -> Files:
         """The files of an analysis."""
         return _lissom.analyse(self._native, name, _request(**request))
 
