@@ -18,6 +18,7 @@ use super::terminal;
 Examples:
   lissom import ur5.urdf                           writes ur5.toml
   lissom import ur5.urdf --position elbow_joint=0.5 --out elbow.toml
+  lissom import ur5.urdf --motors                  an input and a torque for each motor
   lissom import solo12.urdf --floating --without limits,friction
   lissom import hopper.xml                         MJCF, the description of MuJoCo")]
 pub(super) struct Import {
@@ -33,6 +34,9 @@ pub(super) struct Import {
     /// Leave the root free instead of fixing it to the ground.
     #[arg(long)]
     floating: bool,
+    /// Write an input for each motor, and its torque or force within the limits of the description.
+    #[arg(long)]
+    motors: bool,
     /// Omit stops at limits, damping and friction, mimic joints, or what a model cannot express; several are separated by
     /// commas.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
@@ -80,6 +84,7 @@ impl Import {
             limits: !self.without.contains(&Part::Limits),
             friction: !self.without.contains(&Part::Friction),
             mimic: !self.without.contains(&Part::Mimic),
+            motors: self.motors,
             unsupported: if self.without.contains(&Part::Unsupported) {
                 Unsupported::LeftOut
             } else {

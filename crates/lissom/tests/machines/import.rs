@@ -20,6 +20,7 @@ const BARE: Options = Options {
     limits: false,
     friction: false,
     mimic: false,
+    motors: false,
     unsupported: Unsupported::Refused,
 };
 

@@ -168,3 +168,32 @@ fn what_has_no_effect_is_ignored() {
     let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
     assert!(text.contains("# Omitted: damping and friction of the fixed joint `f` (line 3)"), "{text}");
 }
+
+/// Torques are those of the inputs within the limits, and without them the robot is as before.
+#[test]
+fn motors_have_inputs_and_limits() {
+    let urdf = "<robot name='r'><link name='base'/><link name='arm'><inertial><origin xyz='0.5 0 0'/><mass value='2'/>\
+                <inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+                <joint name='left-hip' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>\
+                <limit effort='3' velocity='5'/></joint></robot>";
+    let mjcf = "<mujoco><option gravity='0 0 0'/><worldbody><body name='arm'><joint name='left-hip' axis='0 0 1'/>\
+                <geom type='sphere' size='0.1' pos='0.5 0 0' mass='2'/></body></worldbody>\
+                <actuator><motor joint='left-hip' gear='10' ctrlrange='-0.3 0.3'/><position joint='left-hip' kp='3'/></actuator></mujoco>";
+    for (text, inertia) in [(urdf, 0.6), (mjcf, 0.508)] {
+        let robot = from_description(text).expect("a robot");
+        let plain = model_text(&robot, &Pose::default(), Options::default()).unwrap();
+        assert!(!plain.contains("motor\"") && !plain.contains("[inputs]"), "{plain}");
+        let options = Options { motors: true, ..Options::default() };
+        let driven = model_text(&robot, &Pose::default(), options).unwrap();
+        for (input, torque) in [(0.1, if inertia == 0.6 { 0.1 } else { 1.0 }), (9.0, 3.0)] {
+            let set = [("inputs.left_hip_motor", input.to_string()), ("analysis.end", "0.1".to_owned())];
+            let set: Vec<(&str, &str)> = set.iter().map(|(path, value)| (*path, value.as_str())).collect();
+            let record = crate::support::runs::run(&driven, &set);
+            let rate = crate::support::runs::last(&record, "left_hip", "rate");
+            assert!((rate - 0.1 * torque / inertia).abs() < 1e-6, "{input}: {rate}");
+        }
+    }
+    let robot = from_description(mjcf).unwrap();
+    assert!(robot.left_out.iter().any(|what| what.contains("`--motors`")), "{:?}", robot.left_out);
+    assert!(robot.left_out.iter().any(|what| what.contains("position")), "{:?}", robot.left_out);
+}

@@ -37,6 +37,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         joints: Vec::new(),
         left_out: Vec::new(),
         closures: Vec::new(),
+        motors: Vec::new(),
         obstacles: Vec::new(),
         unsupported: Vec::new(),
     };

@@ -8,6 +8,7 @@ mod joint_text;
 mod massless;
 mod mjcf;
 mod model_text;
+mod motors;
 mod start;
 mod to_urdf;
 mod urdf;
@@ -23,6 +24,7 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
 pub use from_model::{ModelRobot, from_model};
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text};
+pub use motors::Motor;
 pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
@@ -77,6 +79,8 @@ pub struct Robot {
     pub joints: Vec<RobotJoint>,
     /// Joints that close loops.
     pub closures: Vec<Closure>,
+    /// Motors, which are omitted unless they are requested.
+    pub motors: Vec<Motor>,
     /// Contents of the description that are omitted from the model, one sentence each.
     pub left_out: Vec<String>,
     /// Elements that act on the robot and cannot be modelled, one sentence each: rejected unless their omission is

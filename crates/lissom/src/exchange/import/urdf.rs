@@ -57,11 +57,14 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         is_root_the_world: false,
         joints,
         closures: Vec::new(),
+        motors: Vec::new(),
         left_out,
         unsupported: Vec::new(),
         obstacles,
     })?;
-    Ok(with_planar_joints(robot, &planar))
+    let mut robot = with_planar_joints(robot, &planar);
+    robot.motors_by_effort();
+    Ok(robot)
 }
 
 /// What is found besides links and joints.

@@ -51,6 +51,7 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
             is_root_the_world: true,
             joints: Vec::new(),
             closures: Vec::new(),
+            motors: Vec::new(),
             left_out: Vec::new(),
             unsupported: Vec::new(),
             obstacles: Vec::new(),

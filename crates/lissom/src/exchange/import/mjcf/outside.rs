@@ -4,7 +4,7 @@ use lissom_motion::Vector3;
 use roxmltree::Node;
 
 use super::super::xml::{children, counted};
-use super::super::{Closure, ImportError, Robot};
+use super::super::{Closure, ImportError, Motor, Robot};
 use super::element::{Classes, Element};
 
 /// Sections that do not affect the motion.
@@ -77,7 +77,19 @@ pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) {
                 robot.keep(read);
             }
             "actuator" => {
-                let all = counted(inner(node).map(|own| own.tag_name().name().to_owned()));
+                let (mut motors, mut others) = (Vec::new(), Vec::new());
+                for own in inner(node) {
+                    match robot.keep(motor(own, classes, robot)) {
+                        Some(Some(motor)) => motors.push(motor),
+                        _ => others.push(own.tag_name().name().to_owned()),
+                    }
+                }
+                if !motors.is_empty() {
+                    let words = format!("the commands of {} motors: `--motors` writes inputs", motors.len());
+                    robot.left_out.push(words);
+                }
+                robot.motors.extend(motors);
+                let all = counted(others.into_iter());
                 if !all.is_empty() {
                     let words = format!(
                         "actuators, also their forces without a command: {}; joints are driven by loads and signals",
@@ -119,6 +131,24 @@ fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
         }
     }
     Ok(())
+}
+
+/// A `motor` on a joint; none for other actuators, whose forces follow from laws of their own.
+fn motor(node: Node<'_, '_>, classes: &Classes, robot: &Robot) -> Result<Option<Motor>, ImportError> {
+    let own = classes.element(node, None)?;
+    let Some(name) = own.text("joint").filter(|_| own.has_tag("motor")) else { return Ok(None) };
+    let joint = robot.joints.iter().position(|joint| joint.name == name);
+    let joint = joint.ok_or_else(|| own.fault(format!("there is no joint `{name}`")))?;
+    if !robot.joints[joint].moves() {
+        return Ok(None);
+    }
+    let gear = own.list("gear")?.and_then(|all| all.first().copied()).unwrap_or(1.0);
+    let limits = |key: &str, word: &str| -> Result<Option<[f64; 2]>, ImportError> {
+        Ok(own.numbers::<2>(key)?.filter(|_| own.text(word) != Some("false")))
+    };
+    let (input, own_effort) = (limits("ctrlrange", "ctrllimited")?, limits("forcerange", "forcelimited")?);
+    let of_joint = robot.joints[joint].effort.map(|effort| [-effort, effort]);
+    Ok(Some(Motor { joint, gear, input, effort: own_effort.or(of_joint) }))
 }
 
 /// Joints that follow others become mimic joints; bodies that are connected close loops; other equalities are reported.
