@@ -118,6 +118,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "contact_force": outputs.ContactForce,
         "local_load": outputs.LocalLoad,
         "spring": outputs.Spring,
+        "spring_force": outputs.SpringForce,
         "power": outputs.Power,
         "work": outputs.Work,
         "energy": outputs.Energy,

@@ -117,7 +117,9 @@ class Cylindrical(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -133,7 +135,9 @@ class Cylindrical(Joint):
     at: Place | None = None
     axis: Vector | str
     angle: Number | None = None
+    rate: Number | None = None
     displacement: Number | None = None
+    velocity: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -318,6 +322,7 @@ class ParallelAxes(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -333,6 +338,7 @@ class ParallelAxes(Joint):
     at: Place | None = None
     axis: Vector | str
     angle: Number | None = None
+    rate: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -386,6 +392,7 @@ class Planar(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -401,6 +408,7 @@ class Planar(Joint):
     at: Place | None = None
     axis: Vector | str
     angle: Number | None = None
+    rate: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -450,6 +458,7 @@ class PointOnLine(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -465,6 +474,7 @@ class PointOnLine(Joint):
     at: Place | None = None
     axis: Vector | str
     displacement: Number | None = None
+    velocity: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -570,6 +580,7 @@ class Prismatic(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -585,6 +596,7 @@ class Prismatic(Joint):
     at: Place | None = None
     axis: Vector | str
     displacement: Number | None = None
+    velocity: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -603,6 +615,7 @@ class Revolute(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -618,6 +631,7 @@ class Revolute(Joint):
     at: Place | None = None
     axis: Vector | str
     angle: Number | None = None
+    rate: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -705,6 +719,7 @@ class Screw(Joint):
         axis: direction at the start, global axes; a direction.
         lead: Displacement along `axis` per revolution; negative for a left-handed thread [m]; a number.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -721,6 +736,7 @@ class Screw(Joint):
     axis: Vector | str
     lead: Number
     angle: Number | None = None
+    rate: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -826,6 +842,7 @@ class TelescopicRod(Joint):
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -839,6 +856,7 @@ class TelescopicRod(Joint):
     at_base: Place | None = None
     at_tip: Place | None = None
     displacement: Number | None = None
+    velocity: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None

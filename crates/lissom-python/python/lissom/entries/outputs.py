@@ -26,6 +26,7 @@ class Position(Output):
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "position"
@@ -34,17 +35,19 @@ class Position(Output):
     relative_to: str | None = None
     in_: str | None = None
     point: Place | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
 class Displacement(Output):
-    """Displacement since the start.
+    """Displacement from the position in the model file.
 
     Args:
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "displacement"
@@ -53,6 +56,7 @@ class Displacement(Output):
     relative_to: str | None = None
     in_: str | None = None
     point: Place | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -63,6 +67,7 @@ class Rotation(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "rotation"
@@ -70,6 +75,7 @@ class Rotation(Output):
     of: str
     relative_to: str | None = None
     in_: str | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -78,11 +84,15 @@ class Quaternion(Output):
 
     Args:
         of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "quaternion"
 
     of: str
+    relative_to: str | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -91,11 +101,15 @@ class CardanAngles(Output):
 
     Args:
         of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "cardan_angles"
 
     of: str
+    relative_to: str | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -106,6 +120,7 @@ class Angle(Output):
         of: the node, such as "beam@0.5"; a node.
         axis: axis at the start, global axes; it is fixed in `relative_to`; a direction.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "angle"
@@ -113,6 +128,7 @@ class Angle(Output):
     of: str
     axis: Vector | str
     relative_to: str | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -124,6 +140,7 @@ class Velocity(Output):
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "velocity"
@@ -132,6 +149,7 @@ class Velocity(Output):
     relative_to: str | None = None
     in_: str | None = None
     point: Place | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -142,6 +160,7 @@ class Distance(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "distance"
@@ -149,6 +168,7 @@ class Distance(Output):
     of: str
     relative_to: str | None = None
     point: Place | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -159,6 +179,7 @@ class AngularVelocity(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "angular_velocity"
@@ -166,6 +187,7 @@ class AngularVelocity(Output):
     of: str
     relative_to: str | None = None
     in_: str | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -177,6 +199,7 @@ class Acceleration(Output):
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "acceleration"
@@ -185,6 +208,7 @@ class Acceleration(Output):
     relative_to: str | None = None
     in_: str | None = None
     point: Place | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -195,6 +219,7 @@ class SectionForce(Output):
         of: the node, such as "beam@0.5"; a node.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "section_force"
@@ -202,6 +227,7 @@ class SectionForce(Output):
     of: str
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -212,6 +238,7 @@ class SectionMoment(Output):
         of: the node, such as "beam@0.5"; a node.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "section_moment"
@@ -219,6 +246,7 @@ class SectionMoment(Output):
     of: str
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -227,11 +255,13 @@ class Line(Output):
 
     Args:
         of: the beam; the name of an entry of `[beams]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "line"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -240,11 +270,13 @@ class Modal(Output):
 
     Args:
         of: the superelement; the name of an entry of `[superelements]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "modal"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -255,6 +287,7 @@ class Recovered(Output):
         of: the superelement; the name of an entry of `[superelements]`.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "recovered"
@@ -262,6 +295,7 @@ class Recovered(Output):
     of: str
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -273,6 +307,7 @@ class Reaction(Output):
         axes: global axes, or those of the joint frame fixed in base or tip; default `"ground"`; `"ground"`, `"base"`, `"tip"`, or nothing.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "reaction"
@@ -281,6 +316,7 @@ class Reaction(Output):
     axes: Literal["ground", "base", "tip"] | None = None
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -289,11 +325,13 @@ class Relative(Output):
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "relative"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -302,11 +340,13 @@ class RelativeAcceleration(Output):
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "relative_acceleration"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -315,11 +355,13 @@ class RelativeMotion(Output):
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "relative_motion"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -328,11 +370,13 @@ class Contact(Output):
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "contact"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -341,24 +385,30 @@ class ContactForce(Output):
 
     Args:
         of: the contact; the name of an entry of `[contacts]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "contact_force"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
 class LocalLoad(Output):
-    """Resultant force of a local load, its moment about the origin, and the power that it supplies, global axes.
+    """Resultant force of a local load, its moment about the origin, and the power that it supplies, global axes; or with `station` force and moment per length there, in the axes of the load, and its variables.
 
     Args:
         of: the local load; the name of an entry of `[local_loads]`.
+        station: fraction of the length of the beam along which the load acts, at one of its nodes; default the whole load; a number from 0 to 1, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "local_load"
 
     of: str
+    station: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -369,6 +419,7 @@ class Spring(Output):
         of: the spring; the name of an entry of `[springs]`.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "spring"
@@ -376,6 +427,28 @@ class Spring(Output):
     of: str
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class SpringForce(Output):
+    """Force and moment of a spring, bushing, bearing or rolling contact on its tip, about its point `at_tip`.
+
+    Args:
+        of: the spring; the name of an entry of `[springs]`.
+        axes: global axes, or those of the joint frame fixed in base or tip; default `"ground"`; `"ground"`, `"base"`, `"tip"`, or nothing.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
+
+    _form: ClassVar[str] = "spring_force"
+
+    of: str
+    axes: Literal["ground", "base", "tip"] | None = None
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -384,11 +457,13 @@ class Power(Output):
 
     Args:
         of: the name of a spring, a load, a drive or a joint with friction; a text.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "power"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -397,18 +472,26 @@ class Work(Output):
 
     Args:
         of: the name of a spring, a load, a drive or a joint with friction; a text.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "work"
 
     of: str
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
 class Energy(Output):
-    """Kinetic, strain, gravity and total energy of the model."""
+    """Kinetic, strain, gravity and total energy of the model.
+
+    Args:
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
 
     _form: ClassVar[str] = "energy"
+
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -417,11 +500,13 @@ class Momentum(Output):
 
     Args:
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "momentum"
 
     in_: str | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -430,15 +515,19 @@ class Signal(Output):
 
     Args:
         of: the name of a signal, an input or a state; a text.
+        unit: unit of its values, such as "kN", for plots and tables; default none; a text, or nothing.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "signal"
 
     of: str
+    unit: str | None = None
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -447,12 +536,16 @@ class Expression(Output):
 
     Args:
         value: expression such as "hypot(a.x - b.x, a.y - b.y)", of components of outputs; an expression of signals.
+        unit: unit of its values, such as "kN", for plots and tables; default none; a text, or nothing.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
     _form: ClassVar[str] = "expression"
 
     value: Number
+    unit: str | None = None
     woehler_exponent: Number | None = None
     reference_cycles: Number | None = None
+    plot: str | None = None

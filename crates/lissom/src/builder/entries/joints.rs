@@ -481,12 +481,16 @@ keys! {
     [Cylindrical, ParallelAxes, Planar, Revolute, Screw]
     /// Value of the relative rotation at the start; default 0 \[rad\].
     angle: f64 = "angle";
+    /// Rate of the relative rotation at the start, which parts without a given velocity follow \[rad/s\].
+    rate: f64 = "rate";
 }
 
 keys! {
     [Cylindrical, PointOnLine, Prismatic, TelescopicRod]
     /// Value of the relative displacement at the start; default 0 \[m\].
     displacement: f64 = "displacement";
+    /// Velocity of the relative displacement at the start, which parts without a given velocity follow \[m/s\].
+    velocity: f64 = "velocity";
 }
 
 keys! {

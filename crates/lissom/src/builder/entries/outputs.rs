@@ -18,7 +18,7 @@ entry! {
 }
 
 entry! {
-    /// Displacement since the start.
+    /// Displacement from the position in the model file.
     Displacement => OutputId, "displacement";
     ["kind" = "displacement"]
     /// With what must be given.
@@ -166,8 +166,6 @@ entry! {
     ///
     /// - `of`: the joint
     new(of: JointId = "of")
-    /// Global axes, or those of the joint frame fixed in base or tip; default `"ground"`.
-    axes: words::AxesOfTip = "axes";
 }
 
 entry! {
@@ -221,19 +219,31 @@ entry! {
 }
 
 entry! {
-    /// Resultant force of a local load, its moment about the origin, and the power that it supplies, global axes.
+    /// Resultant force of a local load, its moment about the origin, and the power that it supplies, global axes; or with `station` force and moment per length there, in the axes of the load, and its variables.
     LocalLoad => OutputId, "local_load";
     ["kind" = "local_load"]
     /// With what must be given.
     ///
     /// - `of`: the local load
     new(of: LocalLoadId = "of")
+    /// Fraction of the length of the beam along which the load acts, at one of its nodes; default the whole load.
+    station: f64 = "station";
 }
 
 entry! {
     /// Elongation or rotation of a spring, its rate, and its force or moment.
     Spring => OutputId, "spring";
     ["kind" = "spring"]
+    /// With what must be given.
+    ///
+    /// - `of`: the spring
+    new(of: SpringId = "of")
+}
+
+entry! {
+    /// Force and moment of a spring, bushing, bearing or rolling contact on its tip, about its point `at_tip`.
+    SpringForce => OutputId, "spring_force";
+    ["kind" = "spring_force"]
     /// With what must be given.
     ///
     /// - `of`: the spring
@@ -297,7 +307,7 @@ entry! {
 }
 
 keys! {
-    [Position, Displacement, Rotation, Angle, Velocity, Distance, AngularVelocity, Acceleration]
+    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration]
     /// Body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground.
     relative_to: Node = "relative_to";
 }
@@ -315,9 +325,27 @@ keys! {
 }
 
 keys! {
-    [SectionForce, SectionMoment, Recovered, Reaction, Spring, Signal, ExpressionOutput]
+    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
+    /// Plot in which it is drawn together with other outputs of the same word; default its own.
+    plot: String = "plot";
+}
+
+keys! {
+    [SectionForce, SectionMoment, Recovered, Reaction, Spring, SpringForce, Signal, ExpressionOutput]
     /// Exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component.
     woehler_exponent: f64 = "woehler_exponent";
     /// Number of cycles of the damage equivalent range; default one per second of the run.
     reference_cycles: f64 = "reference_cycles";
+}
+
+keys! {
+    [Reaction, SpringForce]
+    /// Global axes, or those of the joint frame fixed in base or tip; default `"ground"`.
+    axes: words::AxesOfTip = "axes";
+}
+
+keys! {
+    [Signal, ExpressionOutput]
+    /// Unit of its values, such as "kN", for plots and tables; default none.
+    unit: String = "unit";
 }
