@@ -395,7 +395,7 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 407;
+    const MAX_CONSTANTS: usize = 415;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 11] = [
@@ -406,8 +406,8 @@ mod tests {
         ("lissom-core", 30_870),
         ("lissom-drawing", 1720),
         ("lissom-model", 32_420),
-        ("lissom", 25_400),
-        ("lissom-cli", 4900),
+        ("lissom", 25_600),
+        ("lissom-cli", 4910),
         ("lissom-fmi", 660),
         ("lissom-python", 2180),
     ];

@@ -78,9 +78,10 @@ fn wraps_nothing(error: &str) -> bool {
 }
 
 /// Errors for which there is no model here, with the reason.
-const WITHOUT_MODEL: [(&str, &str); 12] = [
+const WITHOUT_MODEL: [(&str, &str); 13] = [
     ("StepError::NoTime", "a session is asked for it, no model can"),
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
+    ("StepError::Diverges", "the tests of Python have unstable loops"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
     ("StepError::TooInaccurate", "no model found since steps end at jumps"),
     ("StepError::LoopIsSingular", "no model found: contradictions are reported before"),

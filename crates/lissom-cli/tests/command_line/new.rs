@@ -68,7 +68,7 @@ fn templates_run_as_they_are() {
         assert!((found - wanted).abs() < part * wanted.abs(), "{found} for {wanted}");
     };
     // 300 N m on two wheels of 0.31 m push a car of about 1400 kg.
-    let car = template(&folder, "vehicle", "0.8", &["velocity.v1", "car.z", "front_left.force"]);
+    let car = template(&folder, "vehicle", "0.8", &["velocity.v1", "car.z", "front_left.f3"]);
     near(car[0], 12.0 + 0.8 * 300.0 / 0.31 / 1430.0, 0.005);
     near(car[1], 0.55, 0.02);
     near(car[2], 3394.0, 0.1);
@@ -124,7 +124,7 @@ fn an_imported_robot_of_mujoco_runs_as_it_is() {
     folder.write("cart.xml", &robot.replace("TENDON", ""));
     let made = lissom(&["import", "cart.xml", "--position", "hinge=0.1"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
-    for words in ["3 links, 2 moving joints", "omitted: actuators", "1 <motor>", "1 <light>"] {
+    for words in ["3 links, 2 moving joints", "omitted: the command of 1 motor", "--motors", "1 <light>"] {
         assert!(made.output.contains(words), "{}", made.output);
     }
     let run =

@@ -440,7 +440,7 @@ pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'
     if !augmented {
         return "a coordinate without mass and stiffness requires the augmented term: set `augmented = true`";
     }
-    "it has no resistance in this position: add mass, which a junction of springs without mass needs too, stiffness or a joint, or start the search for an equilibrium from another position, \
+    "it has no resistance in this position: add mass, stiffness or a joint (a junction of springs needs a mass), or start the search for an equilibrium from another position, \
      where weight or a spring determines it"
 }
 

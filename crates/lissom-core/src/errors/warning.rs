@@ -428,8 +428,8 @@ diagnostics! {
             length: f64,
         } => "rope-slack" {
             time: *time,
-            subject: Subject::nameless(format!("the rope on {parts}")),
-            cause: ("at the start the rope on {parts} is slack by {slack:.3} m: it is {length:.3} m long"),
+            subject: Subject::new("part", parts),
+            cause: ("at the start the rope on `{parts}` is slack by {slack:.3} m: it is {length:.3} m long"),
             remedy: "shorten its `length`, unless the part is meant to fall into it",
             meaning: "A rope is longer at the start than the way along its points by more than 5 %. It carries nothing until its parts are so far \
                 apart.",

@@ -157,16 +157,17 @@ pub(crate) fn rates(
     if worst <= (super::NOTEWORTHY_VIOLATION * largest).max(negligible) {
         return Ok(());
     }
-    let mut violated: Vec<Subject> = Vec::new();
-    let is_drive = |k: &usize| system.drives().iter().any(|drive| drive.multiplier == *k);
     // Drives first: they are what contradicts, the joints between them only carry it.
-    let drives = (0..rates.len()).filter(is_drive).filter(|&k| relative(k) > DRIVES_IN_CONFLICT * worst);
-    let others = (0..rates.len()).filter(|k| !is_drive(k)).filter(|&k| relative(k) > 0.1 * worst);
-    for k in drives.chain(others) {
-        let (joint, equation) = layout.constraint_name(k);
-        let name = Subject::new("joint", joint).called(format!("`{joint}` ({equation})"));
-        if violated.len() < super::MAX_LISTED && !violated.contains(&name) {
-            violated.push(name);
+    let is_drive = |k: &usize| system.drives().iter().any(|drive| drive.multiplier == *k);
+    let mut violated: Vec<Subject> = Vec::new();
+    for (wants_drives, share) in [(true, DRIVES_IN_CONFLICT), (false, 0.1)] {
+        let most = violated.len() + super::MAX_LISTED;
+        for k in (0..rates.len()).filter(|k| is_drive(k) == wants_drives && relative(*k) > share * worst) {
+            let (joint, equation) = layout.constraint_name(k);
+            let name = Subject::new("joint", joint).called(format!("`{joint}` ({equation})"));
+            if violated.len() < most && !violated.contains(&name) {
+                violated.push(name);
+            }
         }
     }
     let [cause, remedy] = if system.drives().is_empty() {

@@ -218,7 +218,8 @@ struct Estimate {
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
     match options.shift {
         Some(frequency) if frequency > 0.0 => {
-            let shift = Complex64::new(0.0, std::f64::consts::TAU * frequency);
+            // A frequency from a list of modes is an eigenvalue itself.
+            let shift = Complex64::new(0.0, (1.0 + 2.0 * TOO_NEAR) * std::f64::consts::TAU * frequency);
             let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
             find_near(model, options, (&mut solver, shift), options.count + ADDITIONAL_MODES)
         }

@@ -25,8 +25,10 @@ impl Monitor for EnergySurplus {
                     _ => now,
                 };
                 let is_noteworthy = after.is_noteworthy();
-                let remedy = step.problem.settings.resolution_remedy().into();
-                is_noteworthy.then_some(Warning::EnergySurplus { time: since, surplus, turned_over, remedy })
+                is_noteworthy.then(|| {
+                    let remedy = step.problem.settings.resolution_remedy().to_owned();
+                    Warning::EnergySurplus { time: since, surplus, turned_over, remedy }
+                })
             },
         );
     }

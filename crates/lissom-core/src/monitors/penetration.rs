@@ -52,9 +52,9 @@ pub(crate) fn beyond_stop(system: &System, at: &Kinematics) -> Option<Warning> {
 pub(crate) fn slack_rope(system: &System, at: &Kinematics) -> Option<Warning> {
     system.elements_with(|own| own.spring).find_map(|rope| {
         let [slack, length] = rope.slack(at)?;
-        let name = |node| format!("`{}`", system.layout().name_of_node(node));
+        let name = |node| system.layout().name_of_node(node).to_owned();
         let parts = rope.unknowns().nodes.iter().copied().filter(|&node| node != GROUND).map(name);
-        let parts = parts.collect::<Vec<_>>().join(" and ");
+        let parts = parts.collect::<Vec<_>>().join("` and `");
         (slack > SLACK * length).then(|| Warning::RopeSlack { time: at.time, parts, slack, length })
     })
 }

@@ -13,7 +13,7 @@ use crate::system::Need;
 /// Maximum nesting depth of laws with levels whose arguments have levels themselves.
 const MAX_NESTED_LEVELS: usize = 8;
 /// Number of steps that end at laws from which these are reported, and their fraction of all steps.
-const MIN_LAW_ENDS: usize = 256;
+const MIN_LAW_ENDS: usize = 1000;
 const LAW_ENDS: f64 = 0.25;
 
 /// Decision on an attempt that has a solution.

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::connections::{Places, part_of};
-use super::{AnalysisKind, Body, Component, Document, NodeReference};
+use super::{Body, Component, Document, NodeReference};
 use crate::parts::context::Context;
 use crate::text::report::{Problem, Span};
 
@@ -12,8 +12,6 @@ use crate::text::report::{Problem, Span};
 const MAX_GRAVITY: f64 = 1000.0;
 /// Densities below this are those in t/mm³ or kg/mm³; the lightest foams have a few kg/m³ [kg/m³].
 const MIN_DENSITY: f64 = 0.01;
-/// Young's modulus below this, of a material as dense as metals, is that in MPa or GPa [Pa, kg/m³].
-const MIN_MODULUS: (f64, f64) = (1e6, 2000.0);
 /// Radius of gyration above this, of a body with less than this mass, is that of an inertia in kg mm² [m, kg].
 const MAX_GYRATION: (f64, f64) = (10.0, 1000.0);
 /// Radius of gyration beyond the extent of the whole model by this factor.
@@ -37,7 +35,6 @@ pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places)
         let message = format!("gravity is {} m/s²", document.gravity.norm());
         context.report(Problem::warning(gravity.span, message).help("write it in m/s², and lengths in m"));
     }
-    nothing_moves(context, document);
 }
 
 /// What is doubtful: where, why, and what is probably meant.
@@ -59,13 +56,6 @@ fn units(document: &Document, places: &Places) -> Vec<Doubt> {
         if constants.density > 0.0 && constants.density < MIN_DENSITY {
             let message = format!("material `{}` has a density of {:e} kg/m³", name.value, constants.density);
             doubts.push((name.span, message, "write it in kg/m³: steel has 7850".to_owned()));
-        }
-        if constants.young < MIN_MODULUS.0 && constants.density > MIN_MODULUS.1 {
-            let message = format!(
-                "material `{}` of {} kg/m³ has a Young's modulus of {:e} Pa, less than rubber",
-                name.value, constants.density, constants.young
-            );
-            doubts.push((name.span, message, "write it in Pa: steel has 2.1e11".to_owned()));
         }
     }
     let masses = document.bodies.iter().map(|body| (&body.name, body.mass));
@@ -149,39 +139,4 @@ fn degrees(document: &Document, _: &Places) -> Vec<Doubt> {
         })
     };
     document.joints.iter().filter_map(doubt).collect()
-}
-
-/// A motion without anything that could begin it: no weight, no velocity, no load, no drive and no spring under tension.
-fn nothing_moves(context: &Context<'_>, document: &Document) {
-    let AnalysisKind::Dynamics { .. } = document.analysis.kind else { return };
-    let is_driven = |joint: &Component| {
-        joint.kind.value.starts_with("prescribed")
-            || ["rate", "velocity"].iter().any(|key| joint.parameters.has(key))
-    };
-    let moves = document.bodies.iter().any(|body| body.velocity.is_some() || body.angular_velocity.is_some())
-        || document.point_masses.iter().any(|mass| mass.velocity.is_some())
-        || document.joints.iter().any(is_driven);
-    let has_causes = document.gravity.norm() > 0.0
-        || !document.loads.is_empty()
-        || !document.local_loads.is_empty()
-        || !document.springs.is_empty()
-        || !document.contacts.is_empty()
-        || !document.superelements.is_empty()
-        || !document.inputs.is_empty()
-        || !document.signals.is_empty()
-        || document.beams.iter().any(|beam| !beam.distributed.is_empty())
-        || document.initial.is_some()
-        || !document.initial_of_parts.is_empty()
-        || document.assembly.is_some();
-    let parts = document.bodies.iter().map(|body| &body.name);
-    let first = parts.chain(document.beams.iter().map(|beam| &beam.name)).next();
-    if let Some(first) = first
-        && !moves
-        && !has_causes
-    {
-        let message =
-            "nothing sets the parts in motion: there is no gravity, load, drive, spring or velocity";
-        let help = "add `gravity = [0, 0, -9.81]`, a load, a drive, or a `velocity` of a part";
-        context.report(Problem::warning(first.span, message.to_owned()).help(help));
-    }
 }

@@ -16,7 +16,7 @@ use super::over_argument::OverArgument;
 use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
-use crate::outputs::local_load::LocalLoadPoints;
+use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::reading::node_reference::NodeReference;
 use crate::text::report::{Located, Problem};
 

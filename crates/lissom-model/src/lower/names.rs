@@ -10,7 +10,7 @@ use lissom_system::ElementId;
 
 use crate::document::Component;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
-use crate::outputs::local_load::LocalLoadPoints;
+use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::outputs::{Deformed, Resolver};
 use crate::reading::node_reference::{NodeReference, interface_name};
 use crate::text::report::{Located, Problem, Span};

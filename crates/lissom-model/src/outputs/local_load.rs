@@ -7,6 +7,7 @@ use super::touched::Touched;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, Subjects, WHOLE_MODEL};
 use crate::outputs::entry::Output;
 use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::text::report::Problem;
 use lissom_mechanics::elements::local_load::LocalLoad;
 use lissom_mechanics::elements::{Element, Unknowns};
@@ -32,17 +33,6 @@ pub(crate) const LOCAL_LOAD: Declaration = Declaration {
     ],
     build: Build::System(WHOLE_MODEL, quantity),
 };
-
-/// Elements of a load.
-#[derive(Clone)]
-pub(crate) struct LocalLoadPoints {
-    /// Fraction of the length of the beam, and the element there.
-    pub(crate) points: Vec<(f64, LocalLoad)>,
-    /// The beam along which it is distributed.
-    pub(crate) beam: Option<String>,
-    /// Names of its variables, and the positions of their functions.
-    pub(crate) variables: Vec<(String, usize)>,
-}
 
 /// All points of a load.
 struct Resultant(Vec<LocalLoad>);

@@ -18,6 +18,7 @@ pub(crate) mod frames;
 pub(crate) mod kinds;
 pub(crate) mod line;
 pub(crate) mod local_load;
+pub(crate) mod local_load_points;
 mod location;
 pub(crate) mod modal;
 pub(crate) mod momentum;
@@ -52,7 +53,7 @@ use nalgebra::DMatrix;
 use crate::outputs::channels::Channel;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
 use crate::outputs::entry::Output;
-use crate::outputs::local_load::LocalLoadPoints;
+use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::text::report::Problem;
 
 use touched::Touched;

@@ -14,23 +14,66 @@ const PARALLEL: f64 = 1e-3;
 /// Kinds of joints whose axes are compared.
 const TURNING: [&str; 3] = ["revolute", "parallel_axes", "cylindrical"];
 
-/// A warning if joints lock all parts of a model without drives, with the joint whose axis differs from those of the others.
+/// Kinds of joints that move nothing by themselves.
+const PASSIVE: [&str; 11] = [
+    "clamp",
+    "rigid_link",
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "spherical",
+    "universal",
+    "planar",
+    "parallel_axes",
+    "distance",
+    "point_in_plane",
+];
+
+/// A warning if nothing sets the parts in motion, or if joints lock all parts of a model without drives because one axis differs from
+/// those of the others.
 pub(super) fn immobile(document: &Document, system: &System, state: &State) -> Option<Warning> {
     let is_motion = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
     let is_rigid = document.beams.is_empty() && document.superelements.is_empty();
     let is_small = system.layout().size() <= MAX_UNKNOWNS && !document.joints.is_empty();
-    if !is_motion || !is_rigid || !is_small || !system.drives().is_empty() || !system.latches().is_empty() {
+    if !is_motion || !system.drives().is_empty() || !system.latches().is_empty() {
         return None;
     }
-    if mobility(system, state).freedoms > 0 {
-        return None;
+    if has_no_cause(document, state) {
+        let message =
+            "nothing sets the parts in motion: there is no gravity, load, drive, spring or velocity";
+        let help = "add `gravity = [0, 0, -9.81]`, a load, a drive, or a `velocity` of a part";
+        return Some(warning(message.to_owned(), help));
     }
-    let cause = out_of_line(document).map_or_else(String::new, |words| format!(": {words}"));
-    Some(Warning::Model {
-        part: Subject::nameless("the model"),
-        message: format!("the joints leave no part a motion, the model has 0 degrees of freedom{cause}"),
-        help: "`lissom check` lists the constraints; correct the axes and positions of the joints, or remove one".to_owned(),
+    let cause = out_of_line(document).filter(|_| is_rigid && is_small)?;
+    (mobility(system, state).freedoms == 0).then(|| {
+        let message = format!("the joints leave no part a motion, the model has 0 degrees of freedom: {cause}");
+        let help = "`lissom check` lists the constraints; correct the axes and positions of the joints, or remove one";
+        warning(message, help)
     })
+}
+
+fn warning(message: String, help: &str) -> Warning {
+    Warning::Model { part: Subject::nameless("the model"), message, help: help.to_owned() }
+}
+
+/// Whether all parts are at rest, and nothing acts on them.
+fn has_no_cause(document: &Document, state: &State) -> bool {
+    let at = &state.kinematics;
+    let rests = at.nodes.iter().all(|node| node.twist.iter().all(|value| *value == 0.0))
+        && at.coordinates.iter().all(|coordinate| coordinate.rate == 0.0);
+    rests
+        && document.gravity.norm() == 0.0
+        && document.joints.iter().all(|joint| PASSIVE.contains(&joint.kind.value.as_str()))
+        && document.loads.is_empty()
+        && document.local_loads.is_empty()
+        && document.springs.is_empty()
+        && document.contacts.is_empty()
+        && document.superelements.is_empty()
+        && document.inputs.is_empty()
+        && document.signals.is_empty()
+        && document.states.is_empty()
+        && document.assembly.is_none()
+        && document.beams.iter().all(|beam| beam.distributed.is_empty())
 }
 
 /// The joint whose axis is not parallel to those of at least two others, which are parallel.

@@ -48,17 +48,18 @@ fn slips_are_named_with_the_unit_that_is_read() {
         "[joints.motor]\nkind = \"prescribed_rotation\"\njoint = \"hinge\"\nrotation = \"360*t\"\n[analysis]";
     for (from, to, words) in [
         ("-9.81", "-9810", "gravity is 9810 m/s²"),
-        ("[bodies.arm]", &*material("2.1e5", "7850"), "Young's modulus of 2.1e5 Pa, less than rubber"),
         ("[bodies.arm]", &*material("2.1e11", "7.85e-9"), "density of 7.85e-9 kg/m³"),
         ("[0.02, 0.02, 0.02]", "[2e4, 2e4, 2e4]", "body `arm` of 2 kg has a radius of gyration of 100.000 m"),
         ("position = [1, 0, 0]", "position = [1000, 0, 0]", "and the heaviest, `arm`, has 2 kg"),
         ("at = [1, 0, 0]", "at = [1000, 0, 0]", "`elbow` is 999.500 m from `arm`, which it holds"),
         ("[analysis]", drive, "`motor` turns by 57.3 revolutions per second: angles are in radians"),
-        ("gravity = [0, 0, -9.81]", "", "nothing sets the parts in motion"),
     ] {
         let found = warnings(&PENDULUM.replacen(from, to, 1));
         assert!(found.contains(words), "{words}: {found}");
     }
+    let session = session(&PENDULUM.replace("gravity = [0, 0, -9.81]", ""), &[]);
+    let found = session.warnings().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    assert!(found.contains("nothing sets the parts in motion"), "{found}");
 }
 
 /// A four-bar linkage with one hinge across the others moves nowhere, without violating anything.
@@ -105,7 +106,7 @@ fn laws_that_end_most_steps_are_named() {
         "lissom = 1\n[bodies.a]\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0.3]\n[springs.s]\nkind = \"point\"\n\
          base = \"ground\"\ntip = \"a\"\nat_base = [0, 0, -1]\nstiffness = 1000\nlength = 1\n[local_loads.wind]\non = \"a\"\n\
          axes = \"global\"\nvariables = {{ size = \"{}\" }}\nforce = [0, 0, \"1e-3*size\"]\n\
-         [analysis]\nkind = \"dynamics\"\nend = 6\nrelative_tolerance = 1e-4\n",
+         [analysis]\nkind = \"dynamics\"\nend = 25\nrelative_tolerance = 1e-4\n",
         terms.join(" + ")
     );
     let mut session = session(&text, &[]);
@@ -116,7 +117,7 @@ fn laws_that_end_most_steps_are_named() {
         "{warnings}"
     );
     let laws = session.simulation().laws_that_end_steps(5);
-    assert!(laws.len() == 1 && laws[0].1 > 256, "{laws:?}");
+    assert!(laws.len() == 1 && laws[0].1 > 1000, "{laws:?}");
 }
 
 #[test]

@@ -38,10 +38,24 @@ const NEGLIGIBLE: f64 = 1e-14;
 /// Relative change of multipliers below which a solution of the complete equations is accurate to round-off.
 const SMALL_CHANGE: f64 = 1e-2;
 
-/// Backward differences of five values over four intervals, times the interval, and times its square: those of the first derivative and
-/// of the second one.
-const FIRST_DERIVATIVE: [f64; 5] = [25.0 / 12.0, -4.0, 3.0, -4.0 / 3.0, 0.25];
-const SECOND_DERIVATIVE: [f64; 5] = [35.0 / 12.0, -26.0 / 3.0, 9.5, -14.0 / 3.0, 11.0 / 12.0];
+/// Fractions of a reach at which forces are compared, with the weights of the first derivative, times the reach, and of the second one,
+/// times its square: on both sides, or on one if a function of time has a breakpoint on the other.
+const BOTH_SIDES: [[f64; 3]; 5] = [
+    [0.0, 0.0, -10.0],
+    [0.5, 4.0 / 3.0, 16.0 / 3.0],
+    [-0.5, -4.0 / 3.0, 16.0 / 3.0],
+    [1.0, -1.0 / 6.0, -1.0 / 3.0],
+    [-1.0, 1.0 / 6.0, -1.0 / 3.0],
+];
+const ONE_SIDE: [[f64; 3]; 5] = [
+    [0.0, -25.0 / 3.0, 140.0 / 3.0],
+    [0.25, 16.0, -416.0 / 3.0],
+    [0.5, -12.0, 152.0],
+    [0.75, 16.0 / 3.0, -224.0 / 3.0],
+    [1.0, -1.0, 44.0 / 3.0],
+];
+/// Reach of differences of forces that depend on time, over τ: a rope does not become slack within it.
+const REACH: f64 = 0.125;
 
 /// Recovers velocities, accelerations, multipliers and internal forces for output. The motion itself does not change.
 pub struct Recovery {
@@ -214,10 +228,15 @@ impl Recovery {
         let square = time * time;
         self.work.stiff.clone_from(&self.work.lacking);
         self.stop(system);
-        self.subtract_change_over_time(system, time, false);
+        let depends_on_time = self.depends_on_time(system, time);
+        if depends_on_time {
+            self.subtract_change(system, time, REACH * time, 1);
+        }
         let Self { matrix, found: Recovered { forces, .. }, work, stages, .. } = self;
-        let speeds = &work.speeds;
-        matrix.add_stiffness_product(|row| -square * speeds[row], &mut work.stiff);
+        if !depends_on_time {
+            let speeds = &work.speeds;
+            matrix.add_stiffness_product(|row| -square * speeds[row], &mut work.stiff);
+        }
         matrix.solve(&mut work.stiff);
         for _ in 1..(*stages).max(2) {
             work.right.clone_from(&work.lacking);
@@ -320,8 +339,9 @@ impl Recovery {
         if !self.matrix.is_stiff() {
             return;
         }
-        self.subtract_turning(system, time);
-        self.subtract_change_over_time(system, time, true);
+        self.stop(system);
+        let reach = if self.depends_on_time(system, time) { REACH * time } else { time };
+        self.subtract_change(system, time, reach, 2);
         let Self { matrix, work, stages, .. } = self;
         let Workspace { right, lacking, unbalanced, stiff, accelerations, .. } = work;
         for (stiff, (lacking, unbalanced)) in stiff.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
@@ -355,76 +375,54 @@ impl Recovery {
         }
     }
 
-    /// `stiff` -= τ² ∂f/∂t at rest, or of the second derivative along the motion with constant twists the part that is due to time, by
-    /// differences over τ towards the past, or towards the future if a function has a breakpoint there: a step ends at breakpoints.
-    fn subtract_change_over_time(&mut self, system: &System, time: f64, is_second: bool) {
-        let Self { matrix, work, breakpoints, .. } = self;
-        let layout = system.layout();
-        let Workspace { speeds, right: found, change: sum, stiff, still, moved, .. } = work;
-        let now = still.time;
-        let has_kink = |sign: f64| {
-            let [from, to] = if sign < 0.0 { [now - time, now] } else { [now, now + time] };
-            let margin = 1e-6 * time;
-            breakpoints.iter().any(|&own| own > from + margin && own < to - margin)
-        };
-        let sign = if has_kink(-1.0) && !has_kink(1.0) { 1.0 } else { -1.0 };
-        system.forces_over_time(still, sum);
+    /// Whether forces at rest are others at another time.
+    fn depends_on_time(&mut self, system: &System, time: f64) -> bool {
+        let Workspace { right, change, still, moved, .. } = &mut self.work;
+        system.forces_over_time(still, right);
         moved.clone_from(still);
-        moved.time = now + sign * time;
-        system.forces_over_time(moved, found);
-        if sum == found {
-            return;
-        }
-        let interval = 0.25 * time;
-        // The difference of τ² f' is of an odd power of the interval.
-        let (weights, factor) = if is_second {
-            (SECOND_DERIVATIVE, time * time / (interval * interval))
-        } else {
-            (FIRST_DERIVATIVE, -sign * time * time / interval)
-        };
-        sum.fill(0.0);
-        for (k, weight) in weights.into_iter().enumerate() {
-            let shift = sign * interval * k as f64;
-            moved.clone_from(still);
-            if is_second {
-                move_by(layout, shift, speeds, moved);
-                // The part without time is that of the motion.
-                system.forces_over_time(moved, found);
-                sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum -= weight * force);
-            }
-            moved.time = now + shift;
-            system.forces_over_time(moved, found);
-            sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum += weight * force);
-        }
-        matrix.clear_rates(layout, sum);
-        if sum.iter().all(|value| value.is_finite()) {
-            let motions = sum.iter().take(layout.coordinate_count());
-            stiff.iter_mut().zip(motions).for_each(|(stiff, sum)| *stiff -= factor * sum);
-        }
+        moved.time -= time;
+        system.forces_over_time(moved, change);
+        right != change
     }
 
-    /// `stiff` -= τ² d²f/dt² along the motion with constant twists, f the forces of elements that may be stiff: by differences over τ
-    /// and τ/2 at rest, so that only position-dependent forces are compared.
-    fn subtract_turning(&mut self, system: &System, time: f64) {
-        self.stop(system);
-        let Self { matrix, work, .. } = self;
+    /// `stiff` -= τ² times the derivative of this order, along the motion with constant twists, of the forces f of elements that may be
+    /// stiff: by differences over a reach at rest, so that only forces that depend on positions and time are compared.
+    fn subtract_change(&mut self, system: &System, time: f64, reach: f64, order: usize) {
+        let Self { matrix, work, breakpoints, .. } = self;
         let layout = system.layout();
         let count = layout.coordinate_count();
-        let Workspace { speeds, right: found, stiff: sum, still, moved, .. } = work;
+        let Workspace { speeds, right: found, change: sum, stiff, still, moved, .. } = work;
         matrix.clear_rates(layout, speeds);
-        // Richardson's extrapolation of the second differences, f'' = (4 Δ(τ/2) - Δ(τ))/3.
-        for (shift, weight) in [(0.0, -30.0), (0.5, 16.0), (-0.5, 16.0), (1.0, -1.0), (-1.0, -1.0)] {
+        let (now, is_over_time) = (still.time, reach < time);
+        let has_breakpoint = |side: f64| {
+            let margin = 1e-6 * reach;
+            let is_within = |own: f64| own > margin && own < reach + margin;
+            is_over_time && breakpoints.iter().any(|&own| is_within(side * (own - now)))
+        };
+        let (points, side) = match [-1.0, 1.0].map(has_breakpoint) {
+            [false, false] => (&BOTH_SIDES, 1.0),
+            [true, false] => (&ONE_SIDE, 1.0),
+            // A step ends at breakpoints.
+            _ => (&ONE_SIDE, -1.0),
+        };
+        let scale = (time / reach).powi(2) * if order == 1 { side * reach } else { 1.0 };
+        sum.fill(0.0);
+        for [shift, first, second] in points {
             moved.clone_from(still);
-            if shift != 0.0 {
-                move_by(layout, shift * time, speeds, moved);
+            if *shift != 0.0 {
+                move_by(layout, side * shift * reach, speeds, moved);
+                if is_over_time {
+                    moved.time = now + side * shift * reach;
+                }
             }
             system.stiff_forces(moved, found);
-            sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum -= weight / 3.0 * force);
+            let weight = scale * if order == 1 { first } else { second };
+            sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum += weight * force);
         }
         sum[count..].fill(0.0);
         matrix.clear_rates(layout, sum);
-        if !sum.iter().all(|value| value.is_finite()) {
-            sum.fill(0.0);
+        if sum.iter().all(|value| value.is_finite()) {
+            stiff.iter_mut().zip(&*sum).for_each(|(stiff, sum)| *stiff -= sum);
         }
     }
 }

@@ -85,7 +85,10 @@ pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) {
                     }
                 }
                 if !motors.is_empty() {
-                    let words = format!("the commands of {} motors: `--motors` writes inputs", motors.len());
+                    let words = match motors.len() {
+                        1 => "the command of 1 motor: `--motors` writes an input".to_owned(),
+                        count => format!("the commands of {count} motors: `--motors` writes inputs"),
+                    };
                     robot.left_out.push(words);
                 }
                 robot.motors.extend(motors);
@@ -137,11 +140,9 @@ fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
 fn motor(node: Node<'_, '_>, classes: &Classes, robot: &Robot) -> Result<Option<Motor>, ImportError> {
     let own = classes.element(node, None)?;
     let Some(name) = own.text("joint").filter(|_| own.has_tag("motor")) else { return Ok(None) };
-    let joint = robot.joints.iter().position(|joint| joint.name == name);
-    let joint = joint.ok_or_else(|| own.fault(format!("there is no joint `{name}`")))?;
-    if !robot.joints[joint].moves() {
+    let Some(joint) = robot.joints.iter().position(|joint| joint.name == name && joint.moves()) else {
         return Ok(None);
-    }
+    };
     let gear = own.list("gear")?.and_then(|all| all.first().copied()).unwrap_or(1.0);
     let limits = |key: &str, word: &str| -> Result<Option<[f64; 2]>, ImportError> {
         Ok(own.numbers::<2>(key)?.filter(|_| own.text(word) != Some("false")))
