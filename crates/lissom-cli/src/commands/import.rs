@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lissom::exchange::import::{
-    ChosenStart, Freedom, Options, Pose, Root, Unsupported, chosen_starts, from_file, model_text,
+    ChosenStart, Freedom, Motors, Options, Pose, Root, Unsupported, chosen_starts, from_file, model_text,
 };
 use lissom::model::files;
 use lissom::{Diagnose, Diagnostic, Model, SessionError};
@@ -84,7 +84,7 @@ impl Import {
             limits: !self.without.contains(&Part::Limits),
             friction: !self.without.contains(&Part::Friction),
             mimic: !self.without.contains(&Part::Mimic),
-            motors: self.motors,
+            motors: if self.motors { Motors::Written } else { Motors::Omitted },
             unsupported: if self.without.contains(&Part::Unsupported) {
                 Unsupported::LeftOut
             } else {

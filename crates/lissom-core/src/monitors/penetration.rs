@@ -55,7 +55,7 @@ pub(crate) fn slack_rope(system: &System, at: &Kinematics) -> Option<Warning> {
         let name = |node| system.layout().name_of_node(node).to_owned();
         let parts = rope.unknowns().nodes.iter().copied().filter(|&node| node != GROUND).map(name);
         let parts = parts.collect::<Vec<_>>().join("` and `");
-        (slack > SLACK * length).then(|| Warning::RopeSlack { time: at.time, parts, slack, length })
+        (slack > SLACK * length).then_some(Warning::RopeSlack { time: at.time, parts, slack, length })
     })
 }
 

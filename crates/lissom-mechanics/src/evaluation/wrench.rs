@@ -34,7 +34,7 @@ const TIP: usize = 6;
 
 impl WrenchAxes {
     /// Sᵀ R.
-    fn from_tip(self, [base, tip]: &[CarriedFrame; 2], at: &Kinematics) -> Matrix3 {
+    fn rotation_of_tip(self, [base, tip]: &[CarriedFrame; 2], at: &Kinematics) -> Matrix3 {
         let rotation = at.nodes[tip.node].frame.rotation;
         match self {
             Self::Ground => rotation.matrix(),
@@ -62,7 +62,7 @@ pub fn wrench<E: Element + ?Sized>(
 ) -> [f64; 6] {
     with_scratch(element.unknowns().force_count(), |forces| {
         element.forces(at, forces);
-        let turn = axes.from_tip(frames, at);
+        let turn = axes.rotation_of_tip(frames, at);
         // Forces are on the left-hand side of the equations of motion.
         let [force, moment] = about_frame(&forces[TIP..TIP + 6], &frames[1]).map(|own| -(turn * own));
         [force.x, force.y, force.z, moment.x, moment.y, moment.z]
@@ -78,7 +78,7 @@ pub fn wrench_gradient<E: Element + ?Sized>(
     at: &Kinematics,
 ) -> Gradient {
     let size = element.unknowns().force_count();
-    let turn = axes.from_tip(frames, at);
+    let turn = axes.rotation_of_tip(frames, at);
     let (part, row) = (component / 3, component % 3);
     let project = |on_node: &[f64]| -(turn * about_frame(on_node, &frames[1])[part])[row];
     let mut gradient = Gradient::zero();

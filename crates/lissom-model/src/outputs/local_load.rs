@@ -91,7 +91,7 @@ impl OutputQuantity for AtStation {
     fn touched(&self, _: &System) -> Option<Touched> {
         let Unknowns { nodes, coordinates, .. } = self.load.unknowns();
         let (nodes, coordinates) = (nodes.iter().copied().collect(), coordinates.iter().copied().collect());
-        Some(Touched { nodes, coordinates, ..Touched::default() })
+        Some(Touched { nodes, coordinates })
     }
 }
 

@@ -9,6 +9,7 @@ use lissom_core::elements::Energy;
 use lissom_core::errors::InitialError;
 use lissom_core::kinematics::Subject;
 use lissom_core::scaling::Representative;
+use lissom_core::simulation::Simulation;
 use lissom_model::Document;
 use lissom_model::output::Column;
 use lissom_model::output::Summary;
@@ -158,6 +159,12 @@ pub fn of_beginning(summary: &mut Summary) {
     insert(summary, "stopped", json!("running"));
 }
 
+/// The laws at whose kinks and jumps most steps ended.
+fn of_laws(simulation: &Simulation) -> Value {
+    let law = |(law, steps): &(Subject, usize)| json!({ "law": law.to_string(), "steps": steps });
+    simulation.laws_that_end_steps(MAX_LAWS).iter().map(law).collect()
+}
+
 /// Adds the result of a run.
 pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let simulation = session.simulation();
@@ -179,16 +186,13 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     insert("records", json!(report.records));
     insert("steps", json!(totals.steps));
     insert("rejected_steps", json!(totals.rejected_steps));
-    let laws = simulation.laws_that_end_steps(MAX_LAWS);
-    let law = |(law, steps): &(Subject, usize)| json!({ "law": law.to_string(), "steps": steps });
-    insert("laws_that_end_steps", laws.iter().map(law).collect());
+    insert("laws_that_end_steps", of_laws(simulation));
     insert("stagnated_steps", json!(totals.stagnated_steps));
     insert("newton_iterations", json!(totals.newton_iterations));
     insert("factorizations", json!(totals.factorizations));
-    let fell_back = totals.fell_back_at.map(|row| simulation.system().layout().name_of(row));
-    insert("fell_back_at", json!(fell_back));
-    let regularized = totals.regularized_at.map(|row| simulation.system().layout().name_of(row));
-    insert("yielded_at", json!(regularized));
+    let name_of = |row: usize| simulation.system().layout().name_of(row);
+    insert("fell_back_at", json!(totals.fell_back_at.map(name_of)));
+    insert("yielded_at", json!(totals.regularized_at.map(name_of)));
     insert("factor_entries", json!(simulation.factor_entries()));
     insert("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
     insert("wall_seconds", json!(report.wall.as_secs_f64()));

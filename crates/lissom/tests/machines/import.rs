@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use lissom::exchange::import::{Options, Pose, Root, Unsupported, from_urdf, model_text};
+use lissom::exchange::import::{Motors, Options, Pose, Root, Unsupported, from_urdf, model_text};
 use lissom_motion::Vector6;
 use serde_json::Value;
 
@@ -20,7 +20,7 @@ const BARE: Options = Options {
     limits: false,
     friction: false,
     mimic: false,
-    motors: false,
+    motors: Motors::Omitted,
     unsupported: Unsupported::Refused,
 };
 

@@ -2,7 +2,8 @@
 //! message with the line of the source.
 
 use lissom::exchange::import::{
-    Freedom, ImportError, Options, Pose, Robot, chosen_starts, from_description, from_file, model_text,
+    Freedom, ImportError, Motors, Options, Pose, Robot, chosen_starts, from_description, from_file,
+    model_text,
 };
 
 use crate::support::folder::Folder;
@@ -183,7 +184,7 @@ fn motors_have_inputs_and_limits() {
         let robot = from_description(text).expect("a robot");
         let plain = model_text(&robot, &Pose::default(), Options::default()).unwrap();
         assert!(!plain.contains("motor\"") && !plain.contains("[inputs]"), "{plain}");
-        let options = Options { motors: true, ..Options::default() };
+        let options = Options { motors: Motors::Written, ..Options::default() };
         let driven = model_text(&robot, &Pose::default(), options).unwrap();
         for (input, torque) in [(0.1, if inertia == 0.6 { 0.1 } else { 1.0 }), (9.0, 3.0)] {
             let set = [("inputs.left_hip_motor", input.to_string()), ("analysis.end", "0.1".to_owned())];

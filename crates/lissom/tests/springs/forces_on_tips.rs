@@ -72,7 +72,7 @@ fn forces_on_tips_balance_weights() {
     near(at("mount", "f3"), 2.0 * 9.81);
     near(at("mount", "f1"), 0.0);
     let arm = at("block", "x") - at("foot", "x");
-    assert!(arm < 0.299999, "the mount turns: {arm}");
+    assert!(arm < 0.299_999, "the mount turns: {arm}");
     near(at("mount", "m2"), -arm * 2.0 * 9.81);
     // The axes of the base are z, x and y.
     near(at("in_base", "f1"), 2.0 * 9.81);

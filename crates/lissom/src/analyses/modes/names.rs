@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use lissom_core::linearized::NodeShape;
 use lissom_motion::Vector3;
+use num_complex::Complex64;
 
 /// Parts with at least this fraction of the largest kinetic energy are named, at most so many.
 const NAMED: (f64, usize) = (0.5, 3);
@@ -46,8 +47,8 @@ fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>) -> Option<String>
     let largest = |vector: fn(&NodeShape) -> Vector3| {
         own.iter().map(|node| vector(node)).max_by(|a, b| a.norm().total_cmp(&b.norm()))
     };
-    let moved = largest(|node| Vector3::from(node.displacement.map(|value| value.norm())))?;
-    let turned = largest(|node| Vector3::from(node.rotation.map(|value| value.norm())))?;
+    let moved = largest(|node| Vector3::from(node.displacement.map(Complex64::norm)))?;
+    let turned = largest(|node| Vector3::from(node.rotation.map(Complex64::norm)))?;
     let place = |node: &NodeShape| Vector3::from(node.position);
     let span = own.first().zip(own.last()).map_or_else(Vector3::zeros, |(a, b)| place(b) - place(a));
     let size = if span.norm() > 0.0 { span.norm() } else { 1.0 };
@@ -93,8 +94,6 @@ fn axis(vector: &Vector3) -> String {
 
 #[cfg(test)]
 mod tests {
-    use num_complex::Complex64;
-
     use super::*;
 
     fn node(name: &str, z: f64, displacement: [f64; 3], rotation: [f64; 3]) -> NodeShape {

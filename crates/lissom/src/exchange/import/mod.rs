@@ -24,7 +24,7 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
 pub use from_model::{ModelRobot, from_model};
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text};
-pub use motors::Motor;
+pub use motors::{Motor, Motors};
 pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;

@@ -14,7 +14,7 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, rotation_part, 
 
 use super::joint_text::{Placed, write_closure, write_follower, write_joint, write_resistance, write_rotor};
 use super::massless::{Massless, without_mass};
-use super::motors::write_motors;
+use super::motors::{Motors, write_motors};
 use super::start::{Start, prefix};
 use super::{Closure, Freedom, ImportError, LinkInertia, Pose, Robot};
 
@@ -49,8 +49,8 @@ pub struct Options {
     pub friction: bool,
     /// Whether mimic joints follow others.
     pub mimic: bool,
-    /// Whether motors have inputs and loads.
-    pub motors: bool,
+    /// Treatment of motors.
+    pub motors: Motors,
     /// Treatment of elements that act on the robot and cannot be modelled.
     pub unsupported: Unsupported,
 }
@@ -62,7 +62,7 @@ impl Default for Options {
             limits: true,
             friction: true,
             mimic: true,
-            motors: false,
+            motors: Motors::Omitted,
             unsupported: Unsupported::Refused,
         }
     }
@@ -166,7 +166,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
             write_follower(&mut text, place, &placed[leader], *factor);
         }
     }
-    if options.motors {
+    if options.motors == Motors::Written {
         write_motors(&mut text, robot, &placed);
     }
     text.push_str(&footer(robot, &placed));

@@ -18,6 +18,15 @@ pub struct Motor {
     pub effort: Option<[f64; 2]>,
 }
 
+/// Treatment of motors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motors {
+    /// They are omitted.
+    Omitted,
+    /// Each has an input and a load.
+    Written,
+}
+
 impl Robot {
     /// A motor for each moving joint with an effort that follows no other, where the description lists no motors.
     pub(super) fn motors_by_effort(&mut self) {
