@@ -138,7 +138,7 @@ const draws = async (page) => {
 /** A part that is clicked in the list has its plots marked, and only those. */
 const marks = async (page, part, outputs) => {
   await page.locator(`#parts [data-name="${part}"]`).click();
-  const marked = await page.evaluate(() => lissom.plots.plots.filter(({ card }) => card.classList.contains("marked")).map(({ output }) => output));
+  const marked = await page.evaluate(() => lissom.plots.plots.filter(({ card }) => card.classList.contains("marked")).flatMap(({ outputs }) => outputs));
   assert.deepEqual([...new Set(marked)].sort(), outputs);
   const rows = await page.locator("#selection td").allTextContents();
   for (const output of outputs) assert.ok(rows.some((text) => text === output || text.startsWith(`${output}.`)), `the value of ${output} is shown`);

@@ -123,12 +123,15 @@ export const plots = ({ program, root, folder, view, open }) => ({
     const { page, complaints } = await open(browser, join(out, "view.html"));
     const long = await open(browser, join(view("examples/turbine-rotor.toml"), "view.html"));
     // Each component has a waterfall, with a colour bar in its unit.
-    const choices = await long.page.locator(".plot .over").first().locator("option").evaluateAll((all) => all.map(({ value }) => value).filter((value) => value.startsWith("waterfall ")));
-    const columns = await long.page.evaluate(() => lissom.history.columns.slice(0, 2).map(({ name, unit }) => ({ name, unit })));
-    assert.ok(choices.length >= 2 && columns.every(({ name }, k) => choices[k] === `waterfall ${name}`), choices.join());
-    await long.page.locator(".plot .over").first().selectOption(choices[1]);
-    const drawn = await long.page.evaluate(() => ({ windows: lissom.plots.plots[0].plot.found.windows.length, axes: lissom.plots.plots[0].plot.axes }));
-    assert.ok(drawn.windows >= 20 && drawn.axes.x.includes(columns[1].name) && drawn.axes.bar === columns[1].unit, JSON.stringify(drawn));
+    const card = long.page.locator(".plot", { has: long.page.locator("h3 b", { hasText: /^blade1\.tip$/ }) }).first();
+    const choices = await card.locator(".over option").evaluateAll((all) => all.map(({ value }) => value).filter((value) => value.startsWith("waterfall ")));
+    assert.deepEqual(choices, ["waterfall blade1.tip.u1", "waterfall blade1.tip.u2", "waterfall blade1.tip.u3"]);
+    await card.locator(".over").selectOption(choices[1]);
+    const drawn = await long.page.evaluate(() => {
+      const { plot } = lissom.plots.plots.find(({ plot }) => plot.found);
+      return { windows: plot.found.windows.length, axes: plot.axes };
+    });
+    assert.ok(drawn.windows >= 20 && drawn.axes.x.includes("blade1.tip.u2") && drawn.axes.bar === "m", JSON.stringify(drawn));
     await page.evaluate(() => lissom.select(lissom.model.scene.beams[0].name));
     await page.locator(".plot.sections .over").selectOption("0");
     const found = await page.evaluate(() => {
