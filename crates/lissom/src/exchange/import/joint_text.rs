@@ -33,8 +33,8 @@ pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed,
                 "\n[joints.{name}]\nkind = \"spherical\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {}\n",
                 list(&place.at)
             );
-            if joint.stiffness > 0.0 {
-                let k = joint.stiffness;
+            if joint.spring.stiffness > 0.0 {
+                let k = joint.spring.stiffness;
                 let _ = write!(
                     text,
                     "\n[springs.{}_stiffness]\nkind = \"bushing\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat_base = {at}\n\
@@ -56,17 +56,17 @@ pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed,
     if place.value != 0.0 {
         let _ = writeln!(text, "{key} = {:?}", place.value);
     }
-    write_effort(text, joint);
+    write_rating(text, joint);
 }
 
 /// The maximum torque and speed of a motor, as comments.
-fn write_effort(text: &mut String, joint: &RobotJoint) {
-    if let Some(effort) = joint.effort {
+fn write_rating(text: &mut String, joint: &RobotJoint) {
+    if let Some(effort) = joint.rating.effort {
         let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
         let _ =
             writeln!(text, "# the motor of {} exerts at most {effort:?} {unit}", joint.name.escape_debug());
     }
-    if let Some(speed) = joint.speed {
+    if let Some(speed) = joint.rating.speed {
         let unit = if joint.freedom == Freedom::Rotation { "rad/s" } else { "m/s" };
         let _ = writeln!(
             text,
@@ -90,11 +90,11 @@ pub(super) fn write_resistance(text: &mut String, joint: &RobotJoint, place: &Pl
     if let Some([low, high]) = joint.range.filter(|[low, high]| options.limits && low < high) {
         entry("limits", "_stop", &format!("range = [{low:?}, {high:?}]\nstiffness = \"stop_stiffness\"\n"));
     }
-    if joint.stiffness > 0.0 {
+    if joint.spring.stiffness > 0.0 {
         entry(
             "stiffness",
             "",
-            &format!("stiffness = {:?}\n{rest_key} = {:?}\n", joint.stiffness, joint.rest),
+            &format!("stiffness = {:?}\n{rest_key} = {:?}\n", joint.spring.stiffness, joint.spring.rest),
         );
     }
     if options.friction && joint.damping > 0.0 {

@@ -161,6 +161,24 @@ pub enum Freedom {
     Floating,
 }
 
+/// What the motor of a joint is designed for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotorRating {
+    /// Greatest torque or force [N m, N].
+    pub effort: Option<f64>,
+    /// Maximum speed [rad/s, m/s]; it is not enforced.
+    pub speed: Option<f64>,
+}
+
+/// A spring between the links of a joint; none if its stiffness is zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointSpring {
+    /// Stiffness [N m/rad, N/m].
+    pub stiffness: f64,
+    /// Value of the coordinate at which it is free of force [rad, m].
+    pub rest: f64,
+}
+
 /// A joint between two links.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotJoint {
@@ -182,14 +200,10 @@ pub struct RobotJoint {
     pub reference: f64,
     /// Least and greatest value [rad, m].
     pub range: Option<[f64; 2]>,
-    /// Greatest torque or force of its motor [N m, N].
-    pub effort: Option<f64>,
-    /// Maximum speed for which its motor is designed [rad/s, m/s]; it is not enforced.
-    pub speed: Option<f64>,
-    /// Stiffness of the spring at the joint [N m/rad, N/m].
-    pub stiffness: f64,
-    /// Value at which that spring is free of force [rad, m].
-    pub rest: f64,
+    /// What its motor is designed for.
+    pub rating: MotorRating,
+    /// The spring at the joint.
+    pub spring: JointSpring,
     /// Viscous friction [N m s/rad, N s/m].
     pub damping: f64,
     /// Coulomb friction [N m, N].
@@ -215,10 +229,8 @@ impl RobotJoint {
             anchor: Vector3::zeros(),
             reference: 0.0,
             range: None,
-            effort: None,
-            speed: None,
-            stiffness: 0.0,
-            rest: 0.0,
+            rating: MotorRating::default(),
+            spring: JointSpring::default(),
             damping: 0.0,
             friction: 0.0,
             armature: 0.0,

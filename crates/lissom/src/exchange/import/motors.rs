@@ -31,7 +31,8 @@ impl Robot {
     /// A motor for each moving joint with an effort that follows no other, where the description lists no motors.
     pub(super) fn motors_by_effort(&mut self) {
         let of = |(joint, own): (usize, &super::RobotJoint)| {
-            let effort = own.effort.filter(|effort| *effort > 0.0 && own.moves() && own.follows.is_none())?;
+            let effort =
+                own.rating.effort.filter(|effort| *effort > 0.0 && own.moves() && own.follows.is_none())?;
             Some(Motor { joint, gear: 1.0, input: None, effort: Some([-effort, effort]) })
         };
         self.motors = self.joints.iter().enumerate().filter_map(of).collect();

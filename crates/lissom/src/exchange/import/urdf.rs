@@ -7,7 +7,9 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use roxmltree::Node;
 
 use super::xml::{self, children, location};
-use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, Visual, VisualShape, from_z};
+use super::{
+    Freedom, ImportError, Link, LinkInertia, MotorRating, Robot, RobotJoint, Visual, VisualShape, from_z,
+};
 
 /// Gravity as in ROS [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
@@ -45,7 +47,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     }
     let Notes { obstacles, mut left_out, planar } = notes;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    let limited = joints.iter().filter(|joint| joint.speed.is_some()).count();
+    let limited = joints.iter().filter(|joint| joint.rating.speed.is_some()).count();
     if limited > 0 {
         let joints = if limited == 1 { "1 joint".to_owned() } else { format!("{limited} joints") };
         left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
@@ -356,10 +358,10 @@ fn moving(
         None => Vector3::x(),
     };
     let limit = child(node, "limit").filter(|_| moves);
-    let (mut range, mut effort, mut speed) = (None, None, None);
+    let (mut range, mut rating) = (None, MotorRating::default());
     if let Some(limit) = limit {
-        effort = number(limit, "effort")?;
-        speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
+        rating.effort = number(limit, "effort")?;
+        rating.speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
         if kind == "planar" {
             notes.left_out.push(format!(
                 "limits of the planar joint `{name}` ({source}), which the format does not define"
@@ -406,5 +408,5 @@ fn moving(
         ));
     }
     let joint = RobotJoint::new(name.to_owned(), freedom, parent, child_link, origin(node)?);
-    Ok(RobotJoint { axis, range, effort, speed, damping, friction, follows, source, ..joint })
+    Ok(RobotJoint { axis, range, rating, damping, friction, follows, source, ..joint })
 }

@@ -57,7 +57,7 @@ pub(super) fn joint(
     if element.list("springdamper")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
         return Err(element.fault("`springdamper` is not supported: write `stiffness` and `damping`"));
     }
-    joint.stiffness = element.not_negative("stiffness")?;
+    joint.spring.stiffness = element.not_negative("stiffness")?;
     joint.damping = element.not_negative("damping")?;
     joint.friction = element.not_negative("frictionloss")?;
     joint.armature = element.not_negative("armature")?;
@@ -71,15 +71,15 @@ pub(super) fn joint(
     if joint.moves() {
         joint.axis = direction(element, "axis", element.numbers::<3>("axis")?.unwrap_or([0.0, 0.0, 1.0]))?;
         joint.reference = unit * element.number("ref", 0.0)?;
-        joint.rest = unit * element.number("springref", 0.0)?;
-        joint.effort = limits(element, ("actuatorfrcrange", "actuatorfrclimited"), autolimits)?
+        joint.spring.rest = unit * element.number("springref", 0.0)?;
+        joint.rating.effort = limits(element, ("actuatorfrcrange", "actuatorfrclimited"), autolimits)?
             .map(|[low, high]| low.abs().max(high.abs()));
     } else if joint.armature > 0.0 {
         return Err(
             element.fault("the armature of a ball or free joint is not supported: add it to the inertia")
         );
     }
-    if joint.freedom == Freedom::Floating && joint.stiffness > 0.0 {
+    if joint.freedom == Freedom::Floating && joint.spring.stiffness > 0.0 {
         return Err(
             element.fault("the stiffness of a free joint is not supported: add a spring to the model")
         );

@@ -148,7 +148,7 @@ fn motor(node: Node<'_, '_>, classes: &Classes, robot: &Robot) -> Result<Option<
         Ok(own.numbers::<2>(key)?.filter(|_| own.text(word) != Some("false")))
     };
     let (input, own_effort) = (limits("ctrlrange", "ctrllimited")?, limits("forcerange", "forcelimited")?);
-    let of_joint = robot.joints[joint].effort.map(|effort| [-effort, effort]);
+    let of_joint = robot.joints[joint].rating.effort.map(|effort| [-effort, effort]);
     Ok(Some(Motor { joint, gear, input, effort: own_effort.or(of_joint) }))
 }
 
