@@ -128,7 +128,7 @@ fn held(entry: &LocalLoadEntry, names: &Names, name: &Located<String>) -> Result
     if let Some(Argument::Held(held)) = names.signals.get(&name.value) {
         return Ok(*held);
     }
-    names.samples.get(&name.value).copied().ok_or_else(|| {
+    names.references.samples.get(&name.value).copied().ok_or_else(|| {
         let message = format!(
             "local load `{}` names the signal `{}`, which is not sampled",
             entry.name.value, name.value

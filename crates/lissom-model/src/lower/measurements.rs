@@ -6,7 +6,8 @@ use lissom_mechanics::signals::coordinate::Coordinate;
 use lissom_system::Builder;
 use lissom_system::element_quantity::Of;
 
-use super::names::{LaterMeasurement, Names};
+use super::names::Names;
+use super::signal_references::NamedComponent;
 use super::signals::relative_components;
 use crate::document::{Component, Document};
 use crate::format::suggest;
@@ -158,8 +159,8 @@ pub(super) fn bind(
     names: &mut Names,
     problems: &mut Vec<Problem>,
 ) {
-    for later in std::mem::take(&mut names.later_measurements) {
-        let LaterMeasurement { measurement, output: owner, component, place, reader } = later;
+    for later in std::mem::take(&mut names.references.later_measurements) {
+        let NamedComponent { target: measurement, output: owner, component, place, reader } = later;
         let output = document.outputs.iter().find(|output| output.name.value == owner);
         let Some((output, Build::Element(of, _))) = output.map(|output| (output, output.kind.build())) else {
             continue;

@@ -21,6 +21,7 @@ mod readings;
 pub mod registry;
 mod resource_limits;
 mod rigid_contacts;
+mod signal_references;
 mod signals;
 mod straight_line;
 mod superelements;
@@ -125,7 +126,8 @@ impl Built {
         couplings::check(document, system, state, &mut problems);
         let (channels, accumulated) =
             output_channels::of(document, system, (drawn, undeformed), &names.resolver(), &mut problems);
-        let readings = readings::bind(&names.readings, &channels, accumulated.len(), &mut problems);
+        let readings =
+            readings::bind(&names.references.readings, &channels, accumulated.len(), &mut problems);
         system.assign_readings(readings);
         stop_at(document, &mut problems)?;
         system.beams = ExaminedBeams {

@@ -5,37 +5,16 @@ use std::collections::BTreeMap;
 use lissom_mechanics::elements::beam::line::BeamLine;
 use lissom_mechanics::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_mechanics::registry::ParameterError;
-use lissom_mechanics::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
+use lissom_mechanics::signals::Argument;
 use lissom_system::ElementId;
 
+use super::signal_references::SignalReferences;
 use crate::document::Component;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
 use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::outputs::{Deformed, Resolver};
 use crate::reading::node_reference::{NodeReference, interface_name};
-use crate::text::report::{Located, Problem, Span};
-
-/// A measurement of an element that a signal names before the element is added.
-#[derive(Clone)]
-pub(super) struct LaterMeasurement {
-    pub(super) measurement: MeasurementId,
-    pub(super) output: String,
-    pub(super) component: String,
-    /// Where it is named, and by what.
-    pub(super) place: Span,
-    pub(super) reader: String,
-}
-
-/// A reading that a signal names, before the channels exist.
-#[derive(Clone)]
-pub(super) struct NamedReading {
-    pub(super) held: DiscreteValueId,
-    pub(super) output: String,
-    pub(super) component: String,
-    /// Position and subject of the reference.
-    pub(super) place: Span,
-    pub(super) reader: String,
-}
+use crate::text::report::{Located, Problem};
 
 /// Nodes, coordinates and signals by the names of the model.
 #[derive(Clone, Default)]
@@ -70,19 +49,8 @@ pub struct Names {
     pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,
-    /// Values of sampled signals between samples.
-    pub(super) samples: BTreeMap<String, DiscreteValueId>,
-    /// Those of the signals that are straight lines of time, a + b t.
-    pub(super) lines_of_time: BTreeMap<SignalId, (f64, f64)>,
-    /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the
-    /// signals are sampled.
-    pub(super) measured: BTreeMap<(String, bool), Argument>,
-    /// Those of them that are of elements, which are added after signals.
-    pub(super) later_measurements: Vec<LaterMeasurement>,
-    /// Those of them that are read at samples.
-    pub(super) readings: Vec<NamedReading>,
-    /// Outputs that are expressions and are being resolved, each named by the one before.
-    pub(super) open_expressions: Vec<String>,
+    /// What expressions of signals name besides them.
+    pub(super) references: SignalReferences,
 }
 
 impl Names {

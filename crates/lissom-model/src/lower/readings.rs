@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use lissom_mechanics::signals::DiscreteValueId;
 use lissom_system::{Quantity, Reading, State, System};
 
-use super::names::NamedReading;
+use super::signal_references::NamedComponent;
 use crate::format::suggest;
 use crate::output::component::component_position;
 use crate::outputs::channels::Channel;
@@ -34,13 +35,13 @@ impl Quantity for ChannelQuantity {
 
 /// The readings that signals name, from all channels of the model.
 pub(super) fn bind(
-    named: &[NamedReading],
+    named: &[NamedComponent<DiscreteValueId>],
     channels: &[Channel],
     accumulated: usize,
     problems: &mut Vec<Problem>,
 ) -> Vec<Reading> {
     let mut readings = Vec::new();
-    for NamedReading { held, output, component, place, reader } in named {
+    for NamedComponent { target: held, output, component, place, reader } in named {
         // An output without a channel has its own problem.
         let Some(channel) = channels.iter().find(|channel| channel.name == *output) else { continue };
         let known = || channel.components.iter().map(String::as_str);

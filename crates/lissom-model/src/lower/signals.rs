@@ -13,9 +13,10 @@ use lissom_system::Builder;
 use super::delay;
 use super::discrete_filter;
 use super::measurements::{Fault, Measured, measure};
-use super::names::{LaterMeasurement, NamedReading, Names};
+use super::names::Names;
 use super::order::by_name;
 use super::over_argument::OverArgument;
+use super::signal_references::NamedComponent;
 use crate::document::{Document, EventEntry, SignalEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
 use crate::format::suggest;
@@ -68,7 +69,7 @@ pub(super) fn add(
     let sorted = order.sorted;
     for (entry, (_, start)) in sorted.iter().filter_map(|entry| Some((entry, entry.sampling?))) {
         let held = builder.add_held(&entry.name.value, start);
-        names.samples.insert(entry.name.value.clone(), held);
+        names.references.samples.insert(entry.name.value.clone(), held);
     }
     for entry in sorted {
         if let Err(problem) = add_signal(document, builder, names, entry) {
@@ -187,7 +188,7 @@ fn add_signal(
     entry: &SignalEntry,
 ) -> Result<(), Problem> {
     let name = &entry.name.value;
-    let held = names.samples.get(name).copied();
+    let held = names.references.samples.get(name).copied();
     let own = entry.sampling.zip(held).map(|((period, start), held)| (Sampling { held, period }, start));
     let subject = Subject::new("signal", name).called(name);
     let reader = Reader {
@@ -207,7 +208,7 @@ fn add_signal(
     let signal = builder.add_signal(signal).map_err(invalid)?;
     names.signals.insert(name.clone(), Argument::Signal(signal));
     // Between samples it is constant, with a value that is not known in advance.
-    names.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
+    names.references.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
     Ok(())
 }
 
@@ -268,13 +269,13 @@ fn formula(
     let mut arguments = Vec::new();
     for argument in expression.value.arguments() {
         let previous = reader.own_sample.and_then(|own| previous_sample(&argument.text, own));
-        arguments.push(match previous.and_then(|name| names.samples.get(name)) {
+        arguments.push(match previous.and_then(|name| names.references.samples.get(name)) {
             Some(held) => Argument::Held(*held),
             None => resolve(document, builder, names, reader, argument)?,
         });
     }
     let line = |argument: &Argument| match argument {
-        Argument::Signal(signal) => names.lines_of_time.get(signal).copied(),
+        Argument::Signal(signal) => names.references.lines_of_time.get(signal).copied(),
         Argument::Held(_) | Argument::Measured(_) => None,
     };
     let lines: Vec<Line> = arguments.iter().map(line).collect();
@@ -303,7 +304,7 @@ fn resolve(
         return Ok(known);
     }
     let key = (name.text.clone(), is_sampled);
-    if let Some(&known) = names.measured.get(&key) {
+    if let Some(&known) = names.references.measured.get(&key) {
         return Ok(known);
     }
     let place = document.within(expression.span, expression.value.text(), &name.range);
@@ -341,34 +342,34 @@ fn resolve(
             return Err(problem(format!("`{output}` has no component `{component}`"))
                 .help("its only component is `value`"));
         }
-        if names.open_expressions.contains(output) {
+        if names.references.open_expressions.contains(output) {
             return Err(problem(format!("the output `{output}` is an expression of itself"))
                 .help("remove one of these names"));
         }
-        names.open_expressions.push(output.clone());
+        names.references.open_expressions.push(output.clone());
         let found = output_value(document, builder, names, of, is_sampled);
-        names.open_expressions.pop();
+        names.references.open_expressions.pop();
         let found =
             found.map_err(|fault| fault.unwrap_or_else(|| problem(format!("`{output}` is unknown"))))?;
-        names.measured.insert(key, found);
+        names.references.measured.insert(key, found);
         return Ok(found);
     }
     let measured = measure(document, builder, names, owner, component);
     let fault = match measured {
         Ok(Measured::By(measured)) => {
-            names.measured.insert(key, Argument::Measured(measured));
+            names.references.measured.insert(key, Argument::Measured(measured));
             return Ok(Argument::Measured(measured));
         }
         Ok(Measured::Later) if !is_sampled => {
             let measurement = builder.add_later_measurement();
-            names.later_measurements.push(LaterMeasurement {
-                measurement,
+            names.references.later_measurements.push(NamedComponent {
+                target: measurement,
                 output: owner.to_owned(),
                 component: component.to_owned(),
                 place,
                 reader: what.to_string(),
             });
-            names.measured.insert(key, Argument::Measured(measurement));
+            names.references.measured.insert(key, Argument::Measured(measurement));
             return Ok(Argument::Measured(measurement));
         }
         Ok(Measured::Later) => Fault { message: String::new(), help: None, is_of_solution: true },
@@ -378,14 +379,14 @@ fn resolve(
         return Err(problem(fault.message).maybe_help(fault.help));
     }
     let held = builder.add_reading(&name.text);
-    names.readings.push(NamedReading {
-        held,
+    names.references.readings.push(NamedComponent {
+        target: held,
         output: owner.to_owned(),
         component: component.to_owned(),
         place,
         reader: what.to_string(),
     });
-    names.measured.insert(key, Argument::Held(held));
+    names.references.measured.insert(key, Argument::Held(held));
     Ok(Argument::Held(held))
 }
 
@@ -415,7 +416,7 @@ fn output_value(
             let signal = builder
                 .add_signal(signal)
                 .map_err(|error| Problem::error(expression.span, error.to_string()))?;
-            names.lines_of_time.extend(line.map(|line| (signal, line)));
+            names.references.lines_of_time.extend(line.map(|line| (signal, line)));
             Ok(Argument::Signal(signal))
         }
         _ => Err(None),
