@@ -6,10 +6,12 @@
 //!
 //! where the caller chooses the weight w of the augmented Lagrangian term.
 
+use std::sync::Arc;
+
 use lissom_motion::WIDTH;
 
 use super::System;
-use lissom_mechanics::evaluation::batch::{scatter, scatter_lane};
+use lissom_mechanics::evaluation::batch::{AnyBatch, scatter, scatter_lane};
 use lissom_mechanics::evaluation::linearization::{Linearization, Scratch};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
 use lissom_mechanics::evaluation::threads::Threads;
@@ -181,12 +183,22 @@ impl System {
         }
     }
 
+    /// Elements whose forces may depend on time.
+    fn batches_over_time(&self) -> impl Iterator<Item = &Arc<dyn AnyBatch>> {
+        self.batches.iter().filter(|batch| batch.capabilities().load.is_some())
+    }
+
     /// Forces of those elements that may depend on time.
     pub fn forces_over_time(&self, at: &Kinematics, out: &mut [f64]) {
         out.fill(0.0);
-        for batch in self.batches.iter().filter(|batch| batch.capabilities().load.is_some()) {
+        for batch in self.batches_over_time() {
             batch.forces(at, out);
         }
+    }
+
+    /// Whether there are elements whose forces may depend on time.
+    pub fn has_forces_over_time(&self) -> bool {
+        self.batches_over_time().next().is_some()
     }
 
     /// Adds the derivatives of constraints.

@@ -227,7 +227,9 @@ impl Recovery {
         }
         let square = time * time;
         self.work.stiff.clone_from(&self.work.lacking);
-        self.stop(system);
+        if system.has_forces_over_time() {
+            self.stop(system);
+        }
         let depends_on_time = self.depends_on_time(system, time);
         if depends_on_time {
             self.subtract_change(system, time, REACH * time, 1);
@@ -375,8 +377,11 @@ impl Recovery {
         }
     }
 
-    /// Whether forces at rest are others at another time.
+    /// Whether forces of the state at rest, `still`, are others at another time.
     fn depends_on_time(&mut self, system: &System, time: f64) -> bool {
+        if !system.has_forces_over_time() {
+            return false;
+        }
         let Workspace { right, change, still, moved, .. } = &mut self.work;
         system.forces_over_time(still, right);
         moved.clone_from(still);
