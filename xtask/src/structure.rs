@@ -395,17 +395,17 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 415;
+    const MAX_CONSTANTS: usize = 430;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 11] = [
         ("lissom-motion", 3030),
-        ("lissom-solver", 7000),
-        ("lissom-mechanics", 32_790),
-        ("lissom-system", 5310),
-        ("lissom-core", 30_870),
+        ("lissom-solver", 7010),
+        ("lissom-mechanics", 33_520),
+        ("lissom-system", 5380),
+        ("lissom-core", 31_850),
         ("lissom-drawing", 1720),
-        ("lissom-model", 32_420),
+        ("lissom-model", 32_620),
         ("lissom", 25_600),
         ("lissom-cli", 4910),
         ("lissom-fmi", 660),

@@ -40,6 +40,22 @@ pub trait Equations {
     }
 }
 
+/// A nonlinear system whose residual is nearly the gradient of a convex function with kinks, so that the tangent changes with every
+/// iterate and a correction is followed as far as the function falls.
+pub trait Descent {
+    /// Norm of the residual at the current iterate, over its tolerance.
+    fn residual(&mut self) -> f64;
+
+    /// Linearises at the current iterate, factorises, and moves along the correction to the least value of the function.
+    ///
+    /// # Errors
+    /// If a pivot vanishes.
+    fn descend(&mut self) -> Result<(), FactorError>;
+
+    /// Updates what was fixed while the iterations converged. Whether nothing has changed.
+    fn settle(&mut self) -> bool;
+}
+
 /// Size of a correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correction {
@@ -250,6 +266,41 @@ pub fn solve<E: Equations>(
     }
     jacobian.forget_tangent();
     Err(Failure::NotConverged { iterations: outcome.iterations, correction: outcome.correction })
+}
+
+/// Largest number of corrections of a [`Descent`], and of times that it settles.
+const MAX_DESCENTS: usize = 100;
+
+/// Solves a system by corrections that are followed as far as a function falls.
+///
+/// # Errors
+/// If it does not converge.
+pub fn descend<D: Descent>(system: &mut D) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::default();
+    let mut settled = 0;
+    loop {
+        if interrupt::is_asked() {
+            return Err(Failure::Interrupted);
+        }
+        outcome.correction = system.residual();
+        if !outcome.correction.is_finite() {
+            return Err(Failure::NotFinite { iterations: outcome.iterations });
+        }
+        if outcome.correction <= 1.0 {
+            if system.settle() || settled >= MAX_DESCENTS {
+                return Ok(outcome);
+            }
+            settled += 1;
+            continue;
+        }
+        if outcome.iterations >= MAX_DESCENTS {
+            let Outcome { iterations, correction, .. } = outcome;
+            return Err(Failure::NotConverged { iterations, correction });
+        }
+        system.descend().map_err(Failure::Factor)?;
+        outcome.iterations += 1;
+        outcome.factorizations += 1;
+    }
 }
 
 /// Action after a correction.

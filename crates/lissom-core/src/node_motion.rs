@@ -3,6 +3,8 @@
 //!
 //! ```text
 //! from the start:  H = H₀ exp(V₀ t + z),          V = rate,                        V̇ = curvature
+//! inertial:        R = R₀ E,  E = exp(ω₀ t + z_θ),    x = x₀ + R (v₀ t + z_x),
+//!                                                 V = rate,  v̇ = curvature + (v₀ - Eᵀ v₀)/t - ω × v,  ω̇ = curvature
 //! departures:      H = H₀ exp(V₀ t) exp z,        V = Ad(exp(-z)) V₀ + W,  W = T(z) rate,
 //!                                                 V̇ = T(z) curvature + Ṫ(z) rate - ad_W Ad(exp(-z)) V₀
 //! ```
@@ -13,7 +15,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{
-    Block, Lanes, Matrix3, Motion, Pose, Real, Screw, TangentOperator, Vector3, Vector6, WIDTH,
+    Block, Lanes, Matrix3, Motion, Pose, Real, Screw, TangentOperator, Vector3, Vector6, Versor, WIDTH,
 };
 use pulp::{Simd, WithSimd};
 
@@ -32,6 +34,8 @@ pub(crate) enum IncrementKind {
     RelativeToDrift,
     /// The same, with V - V₀ computed without cancellation: multiplied by [`StageTable::gain`] it replaces the acceleration.
     VelocityChange,
+    /// See the formulas.
+    Inertial,
 }
 
 /// A scheme's coefficients at a stage, in SI.
@@ -210,7 +214,7 @@ impl WithSimd for Entry<'_> {
                 let part = Part { simd, index };
                 let twist = part.screw(&start.twist);
                 let straight = twist.scaled(self.table.ahead);
-                if self.table.kind == IncrementKind::FromStart {
+                if matches!(self.table.kind, IncrementKind::FromStart | IncrementKind::Inertial) {
                     part.store(straight, &mut start.straight);
                     part.store(twist + part.screw(&start.rate), &mut start.rate);
                 } else {
@@ -282,6 +286,15 @@ fn stage_kinematics<R: Real>(
     if table.kind == IncrementKind::FromStart {
         let change = Pose::exponential(own + start.straight);
         return Reached { change, frame: start.frame * change, twist: rate, acceleration: curvature };
+    }
+    if table.kind == IncrementKind::Inertial {
+        let path = own + start.straight;
+        let rotation = Versor::exponential(path.rotation);
+        let change = Pose::new(rotation, rotation.apply(path.translation));
+        let kept = rotation.apply_inverse_gain(start.twist.translation).scaled(table.gain);
+        let turned = rate.rotation.cross(rate.translation);
+        let acceleration = Screw::new(curvature.translation - kept - turned, curvature.rotation);
+        return Reached { change, frame: start.frame * change, twist: rate, acceleration };
     }
     let motion = Pose::exponential(own);
     let change = start.ahead * motion;
@@ -400,7 +413,9 @@ fn of_lane<const N: usize>(blocks: &[Block; N], lane: usize) -> [f64; N] {
 
 #[cfg(test)]
 mod tests {
-    use lissom_motion::{lie_bracket, tangent_rate_times, tangent_times};
+    use lissom_motion::{Rotation, lie_bracket, screw, tangent_rate_times, tangent_times};
+
+    use crate::kinematics::split;
 
     use super::*;
 
@@ -446,6 +461,17 @@ mod tests {
                 NodeMotion { frame: from.frame * change, twist: from.twist + rate, acceleration: curvature };
             return (to, change);
         }
+        if table.kind == IncrementKind::Inertial {
+            let (path, turn) = split(&(straight + own));
+            let rotation = Rotation::exponential(&turn);
+            let change = Motion::new(rotation, rotation.apply(&path));
+            let twist = from.twist + rate;
+            let (velocity, spin) = split(&twist);
+            let before = split(&from.twist).0;
+            let gained = (before - rotation.apply_inverse(&before)) * table.gain - spin.cross(&velocity);
+            let acceleration = curvature + screw(&gained, &Vector3::zeros());
+            return (NodeMotion { frame: from.frame * change, twist, acceleration }, change);
+        }
         let motion = Motion::exponential(own);
         let change = Motion::exponential(&straight) * motion;
         let carried = motion.adjoint_inverse_times(&from.twist);
@@ -489,6 +515,7 @@ mod tests {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
+            touches: Vec::new(),
         };
         let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
         let (rates, curvatures, increments) = (list(), list(), [list(), list(), list()]);
@@ -533,9 +560,12 @@ mod tests {
         processors.extend(pulp::x86::V3::try_new().map(pulp::Arch::V3));
         for processor in processors {
             for (count, point_mass) in [(1, 0), (8, 0), (21, 18), (9, 9)] {
-                for kind in
-                    [IncrementKind::FromStart, IncrementKind::RelativeToDrift, IncrementKind::VelocityChange]
-                {
+                for kind in [
+                    IncrementKind::FromStart,
+                    IncrementKind::RelativeToDrift,
+                    IncrementKind::VelocityChange,
+                    IncrementKind::Inertial,
+                ] {
                     for size in [0.0, 1e-3, 0.1, 1.0] {
                         agrees(processor, count, point_mass, kind, size);
                     }

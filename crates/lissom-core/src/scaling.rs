@@ -208,6 +208,7 @@ impl Scaled {
             Parametrization::FromStart => IncrementKind::FromStart,
             Parametrization::RelativeToDrift if scheme.tableau.is_some() => IncrementKind::VelocityChange,
             Parametrization::RelativeToDrift => IncrementKind::RelativeToDrift,
+            Parametrization::Inertial => IncrementKind::Inertial,
         };
         StageTable {
             kind,

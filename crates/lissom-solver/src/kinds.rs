@@ -51,3 +51,11 @@ pub static KINDS: &[SolverKind] = &[
 pub fn kind(name: &str) -> Option<&'static SolverKind> {
     KINDS.iter().find(|kind| kind.name == name)
 }
+
+/// Multifrontal LDLᵀ without pivoting, for matrices that are symmetric, or so nearly that iterations converge with their lower half.
+pub static SYMMETRIC: SolverKind = SolverKind {
+    name: "symmetric",
+    summary: "multifrontal without pivoting for symmetric matrices: half the work",
+    real: |structure| Box::new(multifrontal::Symmetric::<f64>::new(structure)),
+    complex: |structure| Box::new(multifrontal::Symmetric::<Complex64>::new(structure)),
+};

@@ -44,7 +44,7 @@ mod structure;
 pub use condition::condition_estimate;
 pub use dense::Dense;
 pub use extended::Extended;
-pub use kinds::{KINDS, SolverKind, kind};
+pub use kinds::{KINDS, SYMMETRIC, SolverKind, kind};
 pub use multifrontal::{Kernels, Multifrontal, Symmetric};
 pub use ordering::{minimum_degree_order, profile_order};
 pub use pattern::Pattern;

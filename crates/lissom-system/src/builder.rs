@@ -24,6 +24,7 @@ use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
 use super::{ElementId, JointSlots, System};
+use lissom_mechanics::contact::set::ContactSet;
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass};
 use lissom_mechanics::elements::creep_force::CreepForce;
@@ -89,6 +90,7 @@ pub struct Builder {
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
+    contacts: ContactSet,
     /// Quantities of elements that signals depend on, with the batch of each.
     element_quantities: Vec<(usize, Arc<ElementQuantity>)>,
     /// If parts are given approximately: the given initial values of joint coordinates.
@@ -127,6 +129,7 @@ impl Builder {
             functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
+            contacts: ContactSet::default(),
             element_quantities: Vec::new(),
             start_values: None,
         }
@@ -179,6 +182,11 @@ impl Builder {
     /// Adds to a node's mass matrix: 6x6, in the node's frame, about the node.
     pub fn add_inertia(&mut self, node: NodeId, mass: &Matrix6) {
         *self.model.nodes[node].mass.get_or_insert_with(Matrix6::zeros) += mass;
+    }
+
+    /// Parts that touch without elements, for schemes that solve for all touches of a step at once.
+    pub fn contacts_mut(&mut self) -> &mut ContactSet {
+        &mut self.contacts
     }
 
     /// Adds an element.
@@ -453,6 +461,7 @@ impl Builder {
             joint_batches: Batches::new(&self.constraints.joints),
             constraints: self.constraints,
             placed,
+            contacts: Arc::new(self.contacts),
             coordinate_masses: self.coordinate_masses,
             free_coordinates: self.free_coordinates,
             structure,
@@ -523,6 +532,7 @@ impl Builder {
                 coordinates,
                 held,
                 multipliers: if sees_multipliers { vec![0.0; layout.multiplier_count] } else { Vec::new() },
+                touches: Vec::new(),
             },
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],

@@ -40,6 +40,7 @@ use lissom_solver::Structure;
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
 pub use feedback::{DrivenBatch, Feedback, ScaledPower};
+use lissom_mechanics::contact::set::ContactSet;
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
@@ -93,6 +94,8 @@ pub struct System {
     pub readings: Vec<Reading>,
     /// Beams whose strains and section forces are examined.
     pub beams: ExaminedBeams,
+    /// Parts that touch without elements.
+    pub contacts: Arc<ContactSet>,
 }
 
 /// Rows of every joint's local unknowns and equations, and the positions of its local matrix in the tangent.
@@ -161,6 +164,11 @@ impl System {
     /// Events at which the modes of rigid contacts may change, each with the index of its contact.
     pub fn contact_events(&self) -> &[(usize, usize)] {
         &self.constraints.contact_events
+    }
+
+    /// Parts that touch without elements.
+    pub fn contacts(&self) -> &Arc<ContactSet> {
+        &self.contacts
     }
 
     /// Whether there are rigid contacts.
@@ -244,7 +252,8 @@ impl System {
     pub fn energy(&self, at: &Kinematics) -> Energy {
         let of =
             |batch: &Arc<dyn AnyBatch>| batch.elements().map(|element| element.energy(at)).sum::<Energy>();
-        self.batches.iter().map(of).sum()
+        let touches = at.touches.iter().map(|touch| Energy { strain: touch.energy, ..Energy::default() });
+        self.batches.iter().map(of).chain(touches).sum()
     }
 
     /// Elongation, its rate and the opposing force [SI] of a spring or similar element.

@@ -206,7 +206,7 @@ impl StepEquations<'_> {
         let mut scratch = self.work.evaluation.scratch.take().unwrap_or_default();
         let mut tangents = std::mem::take(&mut self.work.evaluation.node_tangents);
         let chart = match self.scheme.parametrization {
-            Parametrization::FromStart => {
+            Parametrization::FromStart | Parametrization::Inertial => {
                 self.whole_increments(last, &mut tangents);
                 Chart::Increments(&tangents)
             }
@@ -219,6 +219,38 @@ impl StepEquations<'_> {
         self.system.assemble_tangent(&point, chart, &mut scratch, out);
         self.work.evaluation.node_tangents = tangents;
         self.work.evaluation.scratch = Some(scratch);
+    }
+
+    /// Removes what redundant and dependent equations cannot satisfy from the residuals.
+    pub(super) fn omit_redundant(&mut self) {
+        let work = &mut *self.work;
+        let count = work.units.coordinates.len();
+        for residual in &mut work.residuals {
+            work.redundancy.remove_misfit(&mut residual[count..]);
+            work.tangent.omitted().iter().for_each(|&row| residual[row] = 0.0);
+        }
+        let factor = self.scaled.multiplier_factor() * self.scaled.scale();
+        for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
+            for (row, compliance) in work.tangent.compliances(self.scaled.scale()) {
+                residual[row] -= compliance * multipliers[row - count] / factor;
+            }
+        }
+    }
+
+    /// Replaces residuals in SI by corrections.
+    pub(super) fn solve_for_corrections(&mut self) {
+        let work = &mut *self.work;
+        for values in &mut work.residuals {
+            work.evaluation.processor.dispatch(Multiply { values, factors: &work.units.rows });
+        }
+        self.watch.begin(Phase::Solve);
+        work.tangent.matrices.solve(&self.scheme.coupling, &mut work.residuals);
+        self.watch.begin(Phase::Rest);
+        if let Some(factors) = work.tangent.row_factors() {
+            for values in &mut work.residuals {
+                work.evaluation.processor.dispatch(Multiply { values, factors });
+            }
+        }
     }
 
     /// Whether the iterate is far from equilibrium.
@@ -237,7 +269,10 @@ impl StepEquations<'_> {
                 let row = row as usize;
                 psi[k] = straight * work.unit.velocity[row] + work.increments[stage][row];
             }
-            *tangent = IncrementTangent::new(&psi);
+            *tangent = match self.scheme.parametrization {
+                Parametrization::Inertial => IncrementTangent::inertial(&psi),
+                _ => IncrementTangent::new(&psi),
+            };
         }
     }
 
@@ -335,7 +370,7 @@ impl StepEquations<'_> {
     }
 
     /// Adds the corrections of all stages times `share`.
-    fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
+    pub(super) fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
         let factor = self.scaled.multiplier_factor();
         let Workspace {
             increments,
@@ -374,7 +409,7 @@ impl StepEquations<'_> {
     }
 
     /// Stores the scaling of the tangent in use.
-    fn note_scales(&mut self) {
+    pub(super) fn note_scales(&mut self) {
         self.work.note_scales(self.system.layout(), &self.scaled);
     }
 
@@ -438,29 +473,9 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Evaluation);
         self.evaluate();
         self.watch.begin(Phase::Rest);
+        self.omit_redundant();
+        self.solve_for_corrections();
         let work = &mut *self.work;
-        let count = work.units.coordinates.len();
-        for residual in &mut work.residuals {
-            work.redundancy.remove_misfit(&mut residual[count..]);
-            work.tangent.omitted().iter().for_each(|&row| residual[row] = 0.0);
-        }
-        let factor = self.scaled.multiplier_factor() * self.scaled.scale();
-        for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
-            for (row, compliance) in work.tangent.compliances(self.scaled.scale()) {
-                residual[row] -= compliance * multipliers[row - count] / factor;
-            }
-        }
-        for values in &mut work.residuals {
-            work.evaluation.processor.dispatch(Multiply { values, factors: &work.units.rows });
-        }
-        self.watch.begin(Phase::Solve);
-        work.tangent.matrices.solve(&self.scheme.coupling, &mut work.residuals);
-        self.watch.begin(Phase::Rest);
-        if let Some(factors) = work.tangent.row_factors() {
-            for values in &mut work.residuals {
-                work.evaluation.processor.dispatch(Multiply { values, factors });
-            }
-        }
         if work.options.disabled.allows(SolverFeature::Secants) {
             work.newton.anderson.improve(&mut work.residuals, &work.options.tuning);
         }

@@ -3,9 +3,11 @@
 
 pub(crate) mod anderson;
 mod attempt;
+mod contacts;
 mod corrections;
 mod defect;
 pub(crate) mod dense;
+mod descent;
 pub(crate) mod equations;
 pub(crate) mod error_estimate;
 mod error_of_forces;
@@ -31,9 +33,9 @@ use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
 use crate::round_off;
 use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, ScaleBy, Scaled};
-use crate::schemes::StageSystem;
+use crate::schemes::{Combination, StageSystem};
 use crate::settings::{Problem, Settings, Stopwatch, Unwatched};
-use crate::system::{State, Threads};
+use crate::system::{State, System, Threads};
 
 /// The state at which a step begins, and the one before the last step; both are equal before the first step.
 #[derive(Clone, Copy)]
@@ -86,7 +88,7 @@ impl Integrator {
             .tableau
             .filter(|tableau| !tableau.is_stiffly_accurate() && has_constraints)
             .map(|tableau| Projection::new(system, state, &representative, settings.solver, tableau));
-        let remembers = scheme.dynamic && scheme.stages.len() == 1;
+        let remembers = scheme.dynamic && scheme.algorithmic != Combination::default();
         let history = remembers.then(|| {
             let solver = pivoting_unless_augmented(settings);
             IntegratorHistory::new(system, state, &representative, solver, settings.step_size)
@@ -101,6 +103,14 @@ impl Integrator {
             history,
             projection,
             has_last_step: false,
+        }
+    }
+
+    /// Notes the touches at the start of a motion with steps of `size` [s].
+    pub(crate) fn note_touches(&mut self, system: &System, at: &mut Kinematics, size: f64) {
+        if let Some(contacts) = self.work.contacts.as_mut().filter(|_| at.touches.is_empty()) {
+            contacts.begin(system, at, size);
+            contacts.write_first_touches(&mut at.touches);
         }
     }
 
@@ -124,7 +134,11 @@ impl Integrator {
         let mut equations =
             step_equations(problem, start, &self.representative, self.scaled, &mut self.work, watch);
         equations.restart();
-        let result = newton::solve(&mut equations, &settings.limits, &mut self.jacobian_state);
+        let result = if equations.begin_contacts(settings) {
+            newton::descend(&mut equations)
+        } else {
+            newton::solve(&mut equations, &settings.limits, &mut self.jacobian_state)
+        };
         let result = sufficient(result, settings.scheme.tableau.is_some());
         let end_time = time + equations.scaled.step_size();
         let result = result.map_err(|failure| describe_failure(&equations, settings, failure, end_time));
@@ -204,6 +218,9 @@ impl Integrator {
         copy_motion(&reached.at, &mut end.kinematics);
         end.multipliers.copy_from_slice(multipliers);
         end.kinematics.show_multipliers(&end.multipliers);
+        if let Some(contacts) = &work.contacts {
+            contacts.write_touches(&mut end.kinematics.touches);
+        }
         let (algorithmic, memory) = (&settings.scheme.algorithmic, &mut end.algorithmic);
         self.scaled.memory_from_unit_step(algorithmic, &work.unit, &work.increments, memory);
         compensate(start, &reached.changes, end);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::anderson::Anderson;
+use super::contacts::StepContacts;
 use super::corrections::processor;
 use super::predictor::Predictor;
 use crate::consistent::redundancy::Redundancy;
@@ -128,6 +129,8 @@ pub(crate) struct Workspace {
     pub(crate) units: Units,
     pub(crate) evaluation: EvaluationSpace,
     pub(crate) options: SolverOptions,
+    /// Parts that touch without elements.
+    pub(crate) contacts: Option<Box<StepContacts>>,
 }
 
 impl Workspace {
@@ -135,7 +138,7 @@ impl Workspace {
         (system, state): (&System, &State),
         scheme: &Scheme,
         (representative, redundancy): (&Representative, Redundancy),
-        (solver, equilibrated): (&lissom_solver::SolverKind, bool),
+        (solver, equilibrated): (&'static lissom_solver::SolverKind, bool),
     ) -> Self {
         let layout = system.layout();
         let stages = scheme.stages.len();
@@ -143,7 +146,8 @@ impl Workspace {
         let sizes = sizes(layout, representative);
         let tangents = StageTangents::new(solver, system.structure(), &scheme.coupling);
         let mut tangent = SaddlePoint::new(tangents, count);
-        if equilibrated {
+        // Without constraints elimination does not need rows of one size, and a tangent with touches is factored only once.
+        if equilibrated && (system.contacts().is_empty() || layout.multiplier_count > 0) {
             tangent = tangent.equilibrated(layout.size());
         }
         tangent.omit(redundancy.omitted());
@@ -187,7 +191,7 @@ impl Workspace {
             evaluation: EvaluationSpace {
                 joint_starts: JointStarts::default(),
                 node_tangents: match scheme.parametrization {
-                    Parametrization::FromStart => {
+                    Parametrization::FromStart | Parametrization::Inertial => {
                         vec![IncrementTangent::none(); state.kinematics.nodes.len()]
                     }
                     Parametrization::RelativeToDrift => Vec::new(),
@@ -197,6 +201,7 @@ impl Workspace {
                 processor: processor(layout.size()),
             },
             options: SolverOptions::default(),
+            contacts: StepContacts::of((system, solver)),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::errors::{Warning, warn};
-use crate::kinematics::{GROUND, Kinematics};
+use crate::kinematics::{GROUND, Kinematics, NodeId};
 use crate::system::System;
 
 /// Largest plausible penetration at the start, as a fraction of half the size of the two solids or of the range of a stop.
@@ -12,8 +12,10 @@ const OVERLAP: f64 = 0.1;
 struct Penetration;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
-    let mut springs = beginning.problem.system.elements_with(|own| own.spring);
-    let is_limited = springs.any(|spring| spring.least_elongation().is_some());
+    let system = beginning.problem.system;
+    let mut springs = system.elements_with(|own| own.spring);
+    let is_limited =
+        !system.contacts().is_empty() || springs.any(|spring| spring.least_elongation().is_some());
     is_limited.then(|| Box::new(Penetration) as Box<dyn Monitor>)
 }
 
@@ -27,13 +29,18 @@ impl Monitor for Penetration {
 
 /// The first contact that is deeper than half of the size of its solids.
 fn too_deep(system: &System, at: &Kinematics) -> Option<Warning> {
-    let (part, [depth, limit]) = beyond(1.0, system, at)?;
+    let parts = &system.contacts().parts;
+    let touches =
+        at.touches.iter().map(|touch| (parts[touch.key.parts[1] as usize].node, [touch.gap, touch.deepest]));
+    let (part, [depth, limit]) = beyond(1.0, system, at).or_else(|| deepest_of(1.0, system, touches))?;
     Some(Warning::ContactTooDeep { time: at.time, part, depth, limit })
 }
 
 /// The first contact whose solids overlap at the start of a motion, as no weight or preload presses them into each other.
 pub(crate) fn overlap(system: &System, at: &Kinematics) -> Option<Warning> {
-    let (part, [depth, _]) = beyond(OVERLAP, system, at)?;
+    let touching = system.contacts().touching(at);
+    let of_set = || deepest_of(OVERLAP, system, touching.into_iter());
+    let (part, [depth, _]) = beyond(OVERLAP, system, at).or_else(of_set)?;
     Some(Warning::ContactOverlaps { time: at.time, part, depth })
 }
 
@@ -69,4 +76,14 @@ fn beyond(share: f64, system: &System, at: &Kinematics) -> Option<(String, [f64;
         let part = || parts.filter(|&node| node != GROUND).map(named).next_back().unwrap_or_default();
         (gap < share * least).then(|| (part(), [-gap, -least]))
     })
+}
+
+/// The first of these touches, by tip, gap and depth of both solids, that is deeper than a share of half of that depth.
+fn deepest_of(
+    share: f64,
+    system: &System,
+    mut touches: impl Iterator<Item = (NodeId, [f64; 2])>,
+) -> Option<(String, [f64; 2])> {
+    let (node, [gap, deepest]) = touches.find(|(_, [gap, deepest])| *gap < -0.5 * share * deepest)?;
+    Some((system.layout().name_of_node(node).to_owned(), [-gap, 0.5 * deepest]))
 }

@@ -85,7 +85,8 @@ impl Simulation {
         let problem = Problem { system: &system, settings: &settings };
         let beginning = Beginning { problem, state: &state, representative: &representative, released };
         let monitors = Monitors::new(&beginning);
-        let integrator = Integrator::new(problem, &state, (representative, redundancy));
+        let mut integrator = Integrator::new(problem, &state, (representative, redundancy));
+        integrator.note_touches(&system, &mut state.kinematics, settings.step_size);
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);

@@ -14,7 +14,7 @@ use crate::diagnostics::diagnostics;
 use crate::energy_balance::EnergyBalance;
 use crate::errors::Warning;
 use crate::integrator::IntegratorHistory;
-use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
+use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion, Touch};
 use crate::newton::JacobianState;
 use crate::scaling::Scaled;
 use crate::settings::{Settings, Totals};
@@ -24,7 +24,7 @@ use crate::simulation::snapshot_parts::Learned;
 use crate::system::State;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 22;
+const VERSION: u32 = 23;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,6 +109,7 @@ struct StateNumbers {
     algorithmic: Vec<f64>,
     position_remainders: Vec<[f64; 3]>,
     accumulated: Vec<f64>,
+    touches: Vec<Touch>,
 }
 
 impl From<&State> for StateNumbers {
@@ -122,7 +123,7 @@ impl From<&State> for StateNumbers {
             position_remainders,
             accumulated,
         } = state;
-        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown } = kinematics;
+        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown, touches } = kinematics;
         let of_node = |node: &NodeMotion| {
             let mut numbers = [0.0; 19];
             numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
@@ -144,6 +145,7 @@ impl From<&State> for StateNumbers {
             algorithmic: algorithmic.clone(),
             position_remainders: position_remainders.iter().map(|place| (*place).into()).collect(),
             accumulated: accumulated.clone(),
+            touches: touches.clone(),
         }
     }
 }
@@ -171,6 +173,7 @@ impl From<&StateNumbers> for State {
                     .collect(),
                 held: numbers.held.clone(),
                 multipliers: if numbers.shows_multipliers { numbers.multipliers.clone() } else { Vec::new() },
+                touches: numbers.touches.clone(),
             },
             multipliers: numbers.multipliers.clone(),
             violations: numbers.violations.clone(),

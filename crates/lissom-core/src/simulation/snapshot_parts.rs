@@ -20,6 +20,8 @@ pub(crate) struct Learned {
     tangent: saddle_point::Learned,
     redundancy: Vec<Selection>,
     force_round_off: f64,
+    /// Nodes that the tangent couples because they have touched.
+    coupled: Vec<[usize; 2]>,
 }
 
 impl Workspace {
@@ -32,6 +34,7 @@ impl Workspace {
             tangent: self.tangent.learned(),
             redundancy: self.redundancy.selections(),
             force_round_off: self.round_off.force,
+            coupled: self.contacts.as_ref().map(|contacts| contacts.pattern.couples()).unwrap_or_default(),
         }
     }
 
@@ -48,6 +51,11 @@ impl Workspace {
         self.newton.backed_off = from.backed_off;
         self.round_off.force = from.force_round_off;
         self.redundancy.restore(&from.redundancy);
-        self.tangent.restore(system.structure(), &from.tangent)
+        let Some(contacts) = &mut self.contacts else {
+            return self.tangent.restore(system.structure(), &from.tangent);
+        };
+        // Every step with touches begins with a new tangent.
+        contacts.pattern.restore(system.layout(), &from.coupled);
+        Ok(())
     }
 }

@@ -41,9 +41,13 @@ impl Compliance {
         if factor <= 0.0 {
             return [0.0; 3];
         }
-        let depth = self.continued(depth);
-        let elastic = self.stiffness * depth.powf(self.exponent);
-        let slope = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
+        let (elastic, slope) = if self.exponent == 1.0 {
+            (self.stiffness * depth, self.stiffness)
+        } else {
+            let depth = depth.max(0.0);
+            let slope = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
+            (self.stiffness * depth.powf(self.exponent), slope)
+        };
         [elastic * factor, slope * factor, elastic * dissipation]
     }
 
@@ -55,6 +59,14 @@ impl Compliance {
         }
         let sum = force + damping * rate;
         if sum > 0.0 { [sum, stiffness, slope + damping] } else { [0.0; 3] }
+    }
+
+    /// Duration of the touch of a mass [kg] that arrives at a velocity [m/s], from the stiffness k δⁿ⁻¹ at its largest penetration: exact
+    /// for a linear force [s].
+    pub fn duration(&self, mass: f64, velocity: f64) -> f64 {
+        let n = self.exponent;
+        let deepest = (0.5 * (n + 1.0) * mass * velocity * velocity / self.stiffness).powf(1.0 / (n + 1.0));
+        std::f64::consts::PI * (mass / (self.stiffness * deepest.powf(n - 1.0))).sqrt()
     }
 
     /// Energy at a penetration.

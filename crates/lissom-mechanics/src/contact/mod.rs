@@ -8,6 +8,7 @@ pub mod gap;
 pub mod hollow;
 pub mod pairs;
 pub mod profile;
+pub mod set;
 pub mod solids;
 pub mod surfaces;
 pub mod wheel_on_plane;

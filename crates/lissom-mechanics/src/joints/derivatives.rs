@@ -96,6 +96,13 @@ impl IncrementTangent {
         }
     }
 
+    /// At the increment `psi` of a frame whose position and rotation change separately, both in the axes of the end:
+    /// δx = R (δψ_x - ψ_x × T δψ_θ). Translations are taken to vary by T δψ_x, which differs by half of the rotation in a step.
+    pub fn inertial(psi: &Vector6) -> Self {
+        let turning = lissom_motion::rotation_tangent(&lissom_motion::rotation_part(psi));
+        Self { turning, shifting: -lissom_motion::skew(&lissom_motion::translation_part(psi)) * turning }
+    }
+
     /// Transforms derivatives with respect to a body variation of the node to those with respect to its increment: a
     /// row of six times T(ψ).
     pub fn through(&self, row: &mut [f64]) {

@@ -11,6 +11,7 @@ mod quantity;
 pub mod step_stages;
 mod subject;
 pub mod switch;
+mod touch;
 pub mod work;
 
 pub use carried_frame::CarriedFrame;
@@ -23,3 +24,4 @@ pub use quantity::Quantity;
 pub use step_stages::StepStages;
 pub use subject::Subject;
 pub use switch::Switch;
+pub use touch::{Touch, TouchKey};

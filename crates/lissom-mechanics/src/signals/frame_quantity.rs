@@ -287,6 +287,7 @@ mod tests {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
+            touches: Vec::new(),
         }
     }
 

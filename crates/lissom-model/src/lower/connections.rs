@@ -10,6 +10,7 @@ use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters,
 use lissom_mechanics::signals::Argument;
 use lissom_system::{Builder, JointAttachment, PlaceOnTip};
 
+use super::contact_set;
 use super::names::{Names, parameter_problem};
 use super::order::by_name;
 use super::ports;
@@ -74,6 +75,9 @@ pub(super) fn add(
                 .map(|points| drop(names.rigid_contacts.insert(name, points))),
             ContactLaw::OfBeam(law) => super::beam_contacts::add(document, (entry, law), names, builder)
                 .map(|points| drop(names.contacts.insert(name, points))),
+            ContactLaw::Compliant(law) if contact_set::is_wanted(&document.analysis) => {
+                contact_set::add(document, (entry, law), names, builder)
+            }
             ContactLaw::Compliant(law) => super::contacts::add(document, (entry, law), names, builder)
                 .map(|points| drop(names.contacts.insert(name, points))),
         };

@@ -19,7 +19,7 @@ use super::straight_line::Line;
 use crate::document::{CompliantEntry, ContactEntry, ContactLaw, Document, NodeLocation, Restitution};
 use crate::outputs::contact_point::ContactPoint;
 use crate::reading::node_reference::NodeReference;
-use crate::text::report::Problem;
+use crate::text::report::{Located, Problem};
 
 /// Sets the velocities of impacts that begin at the start.
 pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut Kinematics) {
@@ -85,6 +85,7 @@ pub(super) fn add(
     let mut all = Vec::new();
     for (number, point) in points_of_solids(document, entry, names)?.into_iter().enumerate() {
         let own = if number == 0 { name.clone() } else { format!("{name} {}", number + 1) };
+        let event = touch_name(entry, &own, &point);
         let compliance = compliance(document, (entry, law), point.solids)?;
         let (dissipation, velocity) = match law.restitution {
             Restitution::Dissipation(factor) => (Dissipation::Factor(factor), None),
@@ -105,7 +106,7 @@ pub(super) fn add(
         }
         builder.add(contribution.with(contact.clone()));
         if let Some(held) = velocity {
-            touch(&own, &contact, held, builder)
+            touch((&own, event), &contact, held, builder)
                 .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
         }
         all.push(ContactPoint { contact: Arc::new(contact), sign: point.sign, velocity });
@@ -113,9 +114,19 @@ pub(super) fn add(
     Ok(all)
 }
 
+/// Name of the event at which two parts touch: of more than two parts it names them.
+fn touch_name(entry: &ContactEntry, own: &str, point: &PointOfSolids<'_>) -> String {
+    if entry.others.is_empty() {
+        return format!("{own}, touch");
+    }
+    let name = &entry.name.value;
+    let number = if point.number == 0 { String::new() } else { format!(" {}", point.number + 1) };
+    format!("{name}, touch{number} of {}", point.parts)
+}
+
 /// The event at which an impact begins, and sets its velocity.
 fn touch(
-    name: &str,
+    (name, event): (&str, String),
     contact: &Contact,
     held: DiscreteValueId,
     builder: &mut Builder,
@@ -133,9 +144,8 @@ fn touch(
     };
     let root = signal(0, ("gap", 1.0))?;
     let velocity = signal(1, ("-(rate of the gap)", -1.0))?;
-    let name = format!("{name}, touch");
     builder.add_event(Event {
-        name,
+        name: event,
         root,
         direction: Direction::Falling,
         stops: false,
@@ -144,7 +154,7 @@ fn touch(
 }
 
 /// The law of two solids: that of the entry, or of Hertz's theory for two balls or a ball on a plane.
-fn compliance(
+pub(super) fn compliance(
     document: &Document,
     (entry, law): (&ContactEntry, &CompliantEntry),
     solids: [&PlacedSolid; 2],
@@ -180,6 +190,9 @@ pub(super) struct PointOfSolids<'d> {
     pub(super) frames: [CarriedFrame; 2],
     /// 1 if the tip is that of the contact, otherwise -1.
     pub(super) sign: f64,
+    /// The parts in words, and the number of the point among theirs.
+    parts: String,
+    number: usize,
 }
 
 /// The points at which the solids of a contact may touch.
@@ -191,34 +204,51 @@ pub(super) fn points_of_solids<'d>(
     let name = &entry.name.value;
     let mut all = Vec::new();
     for parts in entry.pairs() {
-        if let Some(clamp) = clamp_between(document, parts.map(|part| &part.value)) {
-            let message =
-                format!("contact `{name}` is between parts that the clamp `{clamp}` makes one rigid part");
-            return Err(Problem::error(parts[1].span, message)
-                .help("remove the contact, or join the parts by a joint that moves"));
-        }
+        check_clamp(document, name, parts)?;
         let nodes = [names.node(parts[0])?, names.node(parts[1])?];
+        let words = parts.map(|part| match &part.value {
+            NodeReference::Body(name) | NodeReference::PointMass(name) => name.as_str(),
+            _ => "ground",
+        });
         let [first, second] = parts.map(|part| solids(document, &part.value));
+        let mut number = 0;
         for solids in first.iter().flat_map(|one| second.iter().map(move |other| [one, other])) {
-            let found = meetings(solids).map_err(|error| {
-                let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
-                Problem::error(entry.name.span, message)
-                    .help("repair the file, or use solids that have its shape")
-            })?;
-            let meetings = found.ok_or_else(|| {
-                let [one, other] = solids.map(|solid| solid.form.kind().words());
-                let message = format!("contact `{name}`: {one} against {other} is not available");
-                Problem::error(entry.name.span, message)
-                    .help("one of them can be made of spheres, or be a plane")
-            })?;
-            all.extend(meetings.into_iter().map(|Meeting { pair, sides, frames }| {
+            for Meeting { pair, sides, frames } in meetings_of(entry, solids)? {
                 let carried = |k: usize| CarriedFrame { node: nodes[sides[k]], offset: frames[k] };
                 let sign = if sides == [0, 1] { 1.0 } else { -1.0 };
-                PointOfSolids { solids, pair, frames: [0, 1].map(carried), sign }
-            }));
+                let (frames, parts) = ([0, 1].map(carried), words.join(" and "));
+                all.push(PointOfSolids { solids, pair, frames, sign, parts, number });
+                number += 1;
+            }
         }
     }
     Ok(all)
+}
+
+/// The points at which two solids of a contact may touch.
+pub(super) fn meetings_of(entry: &ContactEntry, solids: [&PlacedSolid; 2]) -> Result<Vec<Meeting>, Problem> {
+    let name = &entry.name.value;
+    let found = meetings(solids).map_err(|error| {
+        let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
+        Problem::error(entry.name.span, message).help("repair the file, or use solids that have its shape")
+    })?;
+    found.ok_or_else(|| {
+        let [one, other] = solids.map(|solid| solid.form.kind().words());
+        let message = format!("contact `{name}`: {one} against {other} is not available");
+        Problem::error(entry.name.span, message).help("one of them can be made of spheres, or be a plane")
+    })
+}
+
+/// Rejects a contact of two parts that a clamp makes one.
+pub(super) fn check_clamp(
+    document: &Document,
+    name: &str,
+    parts: [&Located<NodeReference>; 2],
+) -> Result<(), Problem> {
+    let Some(clamp) = clamp_between(document, parts.map(|part| &part.value)) else { return Ok(()) };
+    let message = format!("contact `{name}` is between parts that the clamp `{clamp}` makes one rigid part");
+    Err(Problem::error(parts[1].span, message)
+        .help("remove the contact, or join the parts by a joint that moves"))
 }
 
 /// The clamp between two parts, if there is one.

@@ -3,6 +3,7 @@
 mod analysis;
 mod beam_contacts;
 mod connections;
+mod contact_set;
 mod contacts;
 mod couplings;
 mod delay;

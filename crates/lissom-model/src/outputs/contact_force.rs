@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::contact_set_force::ContactSetForce;
 use super::frames::name_of;
 use super::rigid_contact_force::RigidContactForce;
 use super::touched::Touched;
@@ -42,10 +43,13 @@ pub(crate) const CONTACT_FORCE: Declaration = Declaration {
 /// All points of a contact.
 struct ContactForce(Vec<ContactPoint>);
 
-fn quantity(output: &Output, _: &System, subjects: &Subjects<'_>) -> Found {
+fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found {
     let name = name_of(output)?;
     if let Some(points) = subjects.names.rigid_contacts.get(&name.value) {
         return Ok(Arc::new(RigidContactForce(points.clone())));
+    }
+    if let Some(rule) = system.contacts().rules.iter().position(|rule| rule.name == name.value) {
+        return Ok(Arc::new(ContactSetForce::new(system, rule)));
     }
     let points = subjects.names.contacts.get(&name.value);
     let points =

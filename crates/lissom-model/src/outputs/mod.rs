@@ -7,6 +7,7 @@ pub mod channels;
 pub(crate) mod contact;
 pub(crate) mod contact_force;
 pub(crate) mod contact_point;
+mod contact_set_force;
 mod derivatives;
 mod differences;
 pub(crate) mod energy;

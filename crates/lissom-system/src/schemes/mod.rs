@@ -3,6 +3,7 @@
 //! A scheme is a table of coefficients: at each stage, velocity and acceleration are linear combinations of the
 //! increments since the start of the step (the unknowns) and of the state at the start.
 
+pub mod backward_euler;
 pub mod collocation;
 pub mod dense_polynomial;
 pub mod energy_decaying;
@@ -27,6 +28,7 @@ pub static KINDS: &[SchemeKind] = &[
     radau_iia::NINTH_ORDER_KIND,
     radau_iia::THIRTEENTH_ORDER_KIND,
     energy_decaying::KIND,
+    backward_euler::KIND,
 ];
 
 /// The scheme kind of that name.

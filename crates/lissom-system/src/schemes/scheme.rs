@@ -77,6 +77,10 @@ pub enum Parametrization {
     /// abscissa. q' - q'_start is the rate of z: the scheme is defined in these local coordinates. They remain small
     /// however fast the frame rotates, and both stages have nearly the same tangent.
     RelativeToDrift,
+    /// x = x_start + R (c x'_start + z_x), R = R_start exp(c θ'_start + z_θ), with z, x' and θ' in body axes: a velocity in body axes at
+    /// the end, whose change in inertial axes is the acceleration. A spinning part in free flight keeps its velocity, which schemes of
+    /// first order would lose otherwise.
+    Inertial,
 }
 
 /// Derivatives of velocity and acceleration with respect to the increment.

@@ -2,6 +2,7 @@
 
 mod benchmarks;
 mod between_parts;
+mod many_parts;
 mod of_beams;
 mod rigid;
 mod rolling;

@@ -99,10 +99,10 @@ struct Workspace {
 }
 
 impl Recovery {
-    /// Recovery for the states of a simulation; none for statics.
+    /// Recovery for the states of a simulation; none for statics, nor with touches, whose forces are those of the steps.
     pub fn of(simulation: &Simulation) -> Option<Box<Self>> {
         let (settings, system, state) = (simulation.settings(), simulation.system(), simulation.state());
-        if !settings.scheme.dynamic {
+        if !settings.scheme.dynamic || !system.contacts().is_empty() {
             return None;
         }
         let kind = pivoting_unless_augmented(settings);

@@ -127,6 +127,24 @@ impl Form {
         }
     }
 
+    /// Radius of a sphere about its origin that contains it [m]; infinite for a plane, a prism or a height field.
+    pub fn radius(&self) -> f64 {
+        let farthest =
+            |points: &mut dyn Iterator<Item = Vector3>| points.map(|point| point.norm()).fold(0.0, f64::max);
+        match self {
+            Self::Solid(solid) => match solid {
+                Solid::Box(sides) => 0.5 * Vector3::from(*sides).norm(),
+                Solid::Tube { outer, length, .. } => outer.hypot(0.5 * length),
+                Solid::Sphere(radius) => *radius,
+                Solid::Capsule { radius, length, .. } => radius + 0.5 * length,
+                Solid::Ellipsoid(axes) => axes.iter().copied().fold(0.0, f64::max),
+            },
+            Self::Hull(mesh) => farthest(&mut mesh.corners()),
+            Self::Mesh(own) => farthest(&mut own.points.iter().copied()),
+            Self::HalfSpace | Self::Outline(_) | Self::Polygon(_) | Self::HeightField(_) => f64::INFINITY,
+        }
+    }
+
     /// Curvature of a sphere or a plane [1/m].
     pub fn curvature(&self) -> Option<f64> {
         match self {

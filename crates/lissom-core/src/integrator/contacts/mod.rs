@@ -1,0 +1,222 @@
+//! Steps with a set of parts that may touch: the points of near parts, and the step's equations with their forces. No touch is an
+//! event, and none has unknowns of its own.
+//!
+//! Legend: r residual of the step's equations, z increments, J gradient of the displacements d of the points, f their forces, A tangent
+//! of the equations without touches, C = -∂f/∂d, Δ a correction, D diagonal of A.
+//!
+//! ```text
+//! r(z) = r₀(z) - Jᵀ f(J z),      (A + Jᵀ C J) Δ = -r,      z ← z + α Δ with Δ·r(z + α Δ) ≈ 0
+//! ```
+//!
+//! With bounds of friction that do not change r is the gradient of a convex function of z, apart from r₀ in large rotations and with
+//! buckling, so that Newton's method with an exact line search converges [Castro, Permenter and Han 2022]. J, normals and gaps are those
+//! at the start of the step, as in linearly implicit schemes; f acts on the position at the start, so that momenta are conserved.
+
+mod coupled_pattern;
+mod near_points;
+
+use lissom_motion::Vector3;
+use lissom_solver::SolverKind;
+
+use self::coupled_pattern::CoupledPattern;
+use self::near_points::NearPoints;
+use crate::contact::set::{Touch, TouchState};
+use crate::kinematics::{Kinematics, LOCKED, Layout};
+use crate::saddle_point::TangentValues;
+use crate::scaling::StageMotion;
+use crate::system::System;
+
+/// Corrections in which bounds of friction follow the iterates. From then on they are fixed until the iterations converge.
+const FOLLOWING: usize = 15;
+/// Largest number of times that bounds are fixed anew.
+const MAX_ROUNDS: usize = 10;
+/// Relative change of bounds below which they are accurate.
+const BOUND_CHANGE: f64 = 1e-3;
+/// Corrections after which the tangent without touches is assembled again.
+const MAX_AGE: usize = 6;
+/// Share of its value at the start that the slope along a correction may have at its end without a search.
+const WHOLE: f64 = 0.1;
+/// The same at the end of a search.
+const FOUND: f64 = 1e-2;
+/// Largest number of evaluations of a search.
+const MAX_EVALUATIONS: usize = 40;
+
+/// What is kept of the touching parts between and within steps.
+pub(crate) struct StepContacts {
+    pub(crate) solver: &'static SolverKind,
+    /// Tolerance of the residual over the motion in the step [-].
+    pub(crate) tolerance: f64,
+    pub(crate) near: NearPoints,
+    pub(crate) states: Vec<TouchState>,
+    /// Changes of the displacements by a correction [m].
+    pub(crate) changes: Vec<Vector3>,
+    pub(crate) pattern: CoupledPattern,
+    pub(crate) smooth: SmoothTangent,
+    /// Residual in SI, by row.
+    pub(crate) residual: Vec<f64>,
+    /// Corrections made in this step, and rounds with fixed bounds.
+    pub(crate) corrections: usize,
+    rounds: usize,
+}
+
+/// Tangent without touches.
+pub(crate) struct SmoothTangent {
+    pub(crate) values: TangentValues,
+    /// Its diagonal by coordinate [SI]; empty before the first.
+    pub(crate) diagonal: Vec<f64>,
+    /// Corrections made with it in this step; none before the first.
+    age: Option<usize>,
+}
+
+impl SmoothTangent {
+    /// Counts a correction. Whether the tangent is to be assembled for it.
+    pub(crate) fn is_due(&mut self) -> bool {
+        let is_due = self.age.is_none_or(|age| age >= MAX_AGE);
+        self.age = Some(if is_due { 1 } else { self.age.unwrap_or(0) + 1 });
+        is_due
+    }
+}
+
+impl StepContacts {
+    /// Of the parts of a system; none if nothing may touch.
+    pub(crate) fn of((system, solver): (&System, &'static SolverKind)) -> Option<Box<Self>> {
+        if system.contacts().is_empty() {
+            return None;
+        }
+        let values = TangentValues::Real(vec![0.0; system.structure().pattern.entries()]);
+        Some(Box::new(Self {
+            solver,
+            tolerance: 0.0,
+            near: NearPoints::new(system),
+            states: Vec::new(),
+            changes: Vec::new(),
+            pattern: CoupledPattern::new(system.layout(), system.structure()),
+            smooth: SmoothTangent { values, diagonal: Vec::new(), age: None },
+            residual: vec![0.0; system.layout().size()],
+            corrections: 0,
+            rounds: 0,
+        }))
+    }
+
+    /// Finds the points at which parts may touch in a step of `size` [s] from the `start`.
+    pub(crate) fn begin(&mut self, system: &System, start: &Kinematics, size: f64) {
+        (self.smooth.age, self.corrections, self.rounds) = (None, 0, 0);
+        self.near.begin(system, start, size);
+    }
+
+    /// Adds the forces of all points at the end of a motion from the `start` to the left-hand side of the equations.
+    pub(crate) fn add_forces(
+        &mut self,
+        start: &Kinematics,
+        motion: &StageMotion,
+        layout: &Layout,
+        out: &mut [f64],
+    ) {
+        let follows = self.corrections <= FOLLOWING;
+        self.states.clear();
+        for point in &mut self.near.points {
+            let displacement = point.displacement(start, &motion.at, &motion.changes);
+            let mut state = point.evaluate(&displacement);
+            if follows && point.update_bound(&state) != 0.0 {
+                state = point.evaluate(&displacement);
+            }
+            self.states.push(state);
+            if state.force == Vector3::zeros() {
+                continue;
+            }
+            for (side, node) in point.nodes.into_iter().enumerate() {
+                let rows = layout.rows_of_node(node);
+                let [force, moment] = point.wrench(side, &state, &motion.at);
+                for (&row, value) in rows.iter().zip(force.iter().chain(moment.iter())) {
+                    if row != LOCKED {
+                        out[row as usize] -= value;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Updates what was fixed while the iterations converged. Whether nothing has changed.
+    pub(crate) fn is_settled(&mut self, start: &Kinematics, motion: &StageMotion, size: f64) -> bool {
+        !self.near.has_left(start, motion, size) && !self.rebounds() && !self.has_new_bounds()
+    }
+
+    /// Gives impacts their restitution. Whether one changes a force.
+    fn rebounds(&mut self) -> bool {
+        let pairs = self.near.points.iter_mut().zip(&self.states);
+        pairs.fold(false, |any, (point, state)| point.rebound(state) || any)
+    }
+
+    /// Fixes the bounds of friction anew, if they were fixed. Whether they have changed.
+    fn has_new_bounds(&mut self) -> bool {
+        if self.corrections <= FOLLOWING || self.rounds >= MAX_ROUNDS {
+            return false;
+        }
+        self.rounds += 1;
+        let (mut change, mut all) = (0.0, 0.0);
+        for (point, state) in self.near.points.iter_mut().zip(&self.states) {
+            change += point.update_bound(state).powi(2);
+            all += point.bound.powi(2);
+        }
+        change > BOUND_CHANGE * BOUND_CHANGE * all
+    }
+
+    /// Share α of a correction at which the slope ℓ' along it vanishes: `slope` is ℓ'(0), and `rise` its increase over the correction
+    /// without touches.
+    pub(crate) fn search(&self, slope: f64, rise: f64) -> f64 {
+        let touches = |share: f64| -> f64 {
+            let each = self.near.points.iter().zip(&self.states).zip(&self.changes);
+            each.map(|((point, state), change)| {
+                point.force(&(state.displacement + share * change)).dot(change)
+            })
+            .sum()
+        };
+        let known: f64 = slope
+            + self
+                .states
+                .iter()
+                .zip(&self.changes)
+                .map(|(state, change)| state.force.dot(change))
+                .sum::<f64>();
+        let at = |share: f64| known + share * rise - touches(share);
+        let end = at(1.0);
+        if !(slope < 0.0 && end > WHOLE * -slope) {
+            return 1.0;
+        }
+        // The method of Illinois.
+        let [mut low, mut high] = [[0.0, slope], [1.0, end]];
+        let mut share = 1.0;
+        for _ in 0..MAX_EVALUATIONS {
+            share = (low[0] * high[1] - high[0] * low[1]) / (high[1] - low[1]);
+            if !(share > low[0] && share < high[0]) {
+                share = 0.5 * (low[0] + high[0]);
+            }
+            let value = at(share);
+            if value.abs() < FOUND * -slope {
+                break;
+            }
+            if value > 0.0 {
+                high = [share, value];
+                low[1] *= 0.5;
+            } else {
+                low = [share, value];
+                high[1] *= 0.5;
+            }
+        }
+        share
+    }
+
+    /// The touches of a motion that begins, before its first step.
+    pub(crate) fn write_first_touches(&mut self, out: &mut Vec<Touch>) {
+        self.states.clear();
+        self.states.extend(self.near.points.iter().map(|point| point.evaluate(&Vector3::zeros())));
+        self.write_touches(out);
+    }
+
+    /// The touches at the end of the step.
+    pub(crate) fn write_touches(&self, out: &mut Vec<Touch>) {
+        out.clear();
+        let pairs = self.near.points.iter().zip(&self.states);
+        out.extend(pairs.filter_map(|(point, state)| point.end(state)));
+    }
+}

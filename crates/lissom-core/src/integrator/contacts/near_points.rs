@@ -1,0 +1,163 @@
+//! The points at which parts may touch in a step: of all parts that may come near each other if they travel no farther than allowed.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lissom_motion::Vector6;
+
+use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting, Step, TouchKey, TouchPoint};
+use crate::kinematics::{GROUND, Kinematics};
+use crate::scaling::StageMotion;
+use crate::system::System;
+
+/// Allowed travel over that at the velocity of the start.
+const SPEED_SHARE: f64 = 1.2;
+/// Parts that travel farther than allowed are allowed this much of their travel.
+const TRAVEL_SHARE: f64 = 1.5;
+
+/// Finds the points.
+pub(crate) struct NearPoints {
+    set: Arc<ContactSet>,
+    pairs: NearPairs,
+    /// The points of every two parts that have been near.
+    meetings: Vec<Vec<PlacedMeeting>>,
+    /// Their indices, and those of the pairs of the last search.
+    known: BTreeMap<NearPair, usize>,
+    last: Vec<(NearPair, usize)>,
+    next: Vec<(NearPair, usize)>,
+    /// Inverse masses by part [1/kg].
+    compliances: Vec<f64>,
+    /// Bounding radii by part, of those without bounds the distance of the farthest other part [m].
+    levers: Vec<f64>,
+    /// Allowed travel of the farthest point by part [m].
+    travel: Vec<f64>,
+    pub(crate) points: Vec<TouchPoint>,
+}
+
+impl NearPoints {
+    /// Of the parts of a system.
+    pub(super) fn new(system: &System) -> Self {
+        let set = system.contacts();
+        let mass_of = |node| {
+            let own = system.inertias().iter().filter(|inertia| inertia.node() == node);
+            own.map(|inertia| inertia.mass()[(0, 0)]).sum::<f64>()
+        };
+        let masses: Vec<f64> = set.parts.iter().map(|part| mass_of(part.node)).collect();
+        let least = masses.iter().copied().filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
+        // Parts without a mass of their own, such as interfaces, are taken as light.
+        let compliance = |(mass, node): (f64, _)| match mass {
+            _ if node == GROUND => 0.0,
+            mass if mass > 0.0 => 1.0 / mass,
+            _ if least.is_finite() => 1.0 / least,
+            _ => 1.0,
+        };
+        let nodes = set.parts.iter().map(|part| part.node);
+        Self {
+            pairs: NearPairs::new(set),
+            meetings: Vec::new(),
+            known: BTreeMap::new(),
+            last: Vec::new(),
+            next: Vec::new(),
+            compliances: masses.into_iter().zip(nodes).map(compliance).collect(),
+            levers: set.parts.iter().map(|part| part.radius).collect(),
+            travel: vec![0.0; set.parts.len()],
+            points: Vec::new(),
+            set: Arc::clone(set),
+        }
+    }
+
+    /// Finds the points of a step of `size` [s] from the `start`.
+    pub(super) fn begin(&mut self, system: &System, start: &Kinematics, size: f64) {
+        let gravity = system.gravity().norm();
+        self.measure_levers(start);
+        for (index, part) in self.set.parts.iter().enumerate().filter(|(_, part)| part.node != GROUND) {
+            let node = &start.nodes[part.node];
+            let farthest = |screw: &Vector6| {
+                screw.fixed_rows::<3>(0).norm() + self.levers[index] * screw.fixed_rows::<3>(3).norm()
+            };
+            let acceleration = gravity + farthest(&node.acceleration);
+            self.travel[index] = size * (SPEED_SHARE * farthest(&node.twist) + size * acceleration);
+        }
+        self.find(start, size);
+    }
+
+    /// Distances of the farthest points of parts without bounds that rotate.
+    fn measure_levers(&mut self, at: &Kinematics) {
+        let Self { set, levers, .. } = self;
+        for (index, part) in set.parts.iter().enumerate() {
+            if part.radius.is_finite() || part.node == GROUND {
+                continue;
+            }
+            let place = at.nodes[part.node].frame.position;
+            let others =
+                set.parts.iter().enumerate().filter(|(other, own)| *other != index && own.radius.is_finite());
+            let reach =
+                others.map(|(_, other)| (at.nodes[other.node].frame.position - place).norm() + other.radius);
+            levers[index] = reach.fold(0.0, f64::max);
+        }
+    }
+
+    fn find(&mut self, start: &Kinematics, size: f64) {
+        let Self { set, pairs, meetings, known, last, next, points, travel, compliances, .. } = self;
+        points.clear();
+        next.clear();
+        // Both lists are in ascending order, and nearly all pairs are in both.
+        let mut before = last.iter().peekable();
+        for &pair in pairs.find(set, start, travel) {
+            while before.next_if(|(own, _)| own.rank() < pair.rank()).is_some() {}
+            let index = match before.peek() {
+                Some((own, index)) if *own == pair => *index,
+                _ => *known.entry(pair).or_insert_with(|| {
+                    meetings.push(placed(set, pair));
+                    meetings.len() - 1
+                }),
+            };
+            next.push((pair, index));
+        }
+        std::mem::swap(last, next);
+        let mut touches = start.touches.iter().peekable();
+        for &(NearPair { rule, parts }, index) in last.iter() {
+            let own = &meetings[index];
+            let [base, tip] = parts.map(|part| part as usize);
+            let nodes = [base, tip].map(|part| set.parts[part].node);
+            let step = Step { size, compliance: compliances[base] + compliances[tip] };
+            let reach = travel[base] + travel[tip];
+            for (point, (meeting, law)) in own.iter().enumerate() {
+                let key = TouchKey { rule, parts, point: point as u32 };
+                while touches.next_if(|touch| touch.key.rank() < key.rank()).is_some() {}
+                let before = touches.peek().copied().filter(|touch| touch.key == key);
+                points.extend(TouchPoint::at((key, meeting, law), nodes, (start, step), (reach, before)));
+            }
+        }
+    }
+
+    /// Whether a part has travelled farther than allowed: it is then allowed more, and the points are found again.
+    pub(super) fn has_left(&mut self, start: &Kinematics, motion: &StageMotion, size: f64) -> bool {
+        let mut has_left = false;
+        for (index, part) in self.set.parts.iter().enumerate() {
+            let turn = size * motion.at.nodes[part.node].twist.fixed_rows::<3>(3).norm();
+            let path = motion.changes[part.node].shift.norm() + self.levers[index] * turn;
+            if path > self.travel[index] {
+                self.travel[index] = TRAVEL_SHARE * path;
+                has_left = true;
+            }
+        }
+        if has_left {
+            let before = std::mem::take(&mut self.points);
+            self.find(start, size);
+            for point in &mut self.points {
+                if let Ok(index) = before.binary_search_by_key(&point.key.rank(), |own| own.key.rank()) {
+                    *point = before[index];
+                }
+            }
+        }
+        has_left
+    }
+}
+
+/// The points of two parts, each with its law.
+fn placed(set: &ContactSet, pair: NearPair) -> Vec<PlacedMeeting> {
+    // Forms that cannot touch are rejected with the model.
+    let parts = pair.parts.map(|part| part as usize);
+    set.meetings_of(pair.rule as usize, parts).ok().flatten().unwrap_or_default()
+}

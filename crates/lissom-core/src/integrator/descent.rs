@@ -1,0 +1,168 @@
+//! The corrections of a step with touches, see `contacts`.
+
+use lissom_motion::{Vector3, Vector6};
+use lissom_solver::{FactorError, KINDS, SYMMETRIC};
+
+use super::contacts::StepContacts;
+use super::equations::StepEquations;
+use crate::contact::set::TouchState;
+use crate::kinematics::{LOCKED, NodeId, Quantity};
+use crate::newton::Descent;
+use crate::round_off;
+use crate::saddle_point::TangentValues;
+use crate::saddle_point::stage_tangents::StageTangents;
+use crate::settings::{Phase, Settings};
+
+/// Violations of constraints, over the representative length or in radians, that are round-off of a solution.
+const VIOLATION: f64 = 1e-10;
+
+impl Descent for StepEquations<'_> {
+    fn residual(&mut self) -> f64 {
+        self.watch.begin(Phase::Evaluation);
+        self.evaluate();
+        let Some(mut contacts) = self.work.contacts.take() else { return 0.0 };
+        let layout = self.system.layout();
+        let motion = &self.work.motions[0];
+        contacts.add_forces(&self.start.kinematics, motion, layout, &mut self.work.residuals[0]);
+        self.watch.begin(Phase::Rest);
+        self.omit_redundant();
+        contacts.residual.copy_from_slice(&self.work.residuals[0]);
+        let size = self.unbalance(&contacts);
+        self.work.contacts = Some(contacts);
+        size
+    }
+
+    fn descend(&mut self) -> Result<(), FactorError> {
+        let Some(mut contacts) = self.work.contacts.take() else { return Ok(()) };
+        let result = self.correct_with(&mut contacts);
+        self.work.contacts = Some(contacts);
+        result
+    }
+
+    fn settle(&mut self) -> bool {
+        let Some(mut contacts) = self.work.contacts.take() else { return true };
+        let (motion, start) = (&self.work.motions[0], &self.start.kinematics);
+        let is_settled = contacts.is_settled(start, motion, self.scaled.step_size());
+        self.work.contacts = Some(contacts);
+        is_settled
+    }
+}
+
+impl StepEquations<'_> {
+    /// Finds the points at which parts may touch in the step. Whether there are parts that may.
+    pub(super) fn begin_contacts(&mut self, settings: &Settings) -> bool {
+        let Some(contacts) = &mut self.work.contacts else { return false };
+        contacts.tolerance = settings.limits.tolerance;
+        contacts.begin(self.system, &self.start.kinematics, self.scaled.step_size());
+        true
+    }
+
+    /// Norm of the residual over that of the motion, in the norm of the tangent's diagonal, and over the tolerance.
+    fn unbalance(&self, contacts: &StepContacts) -> f64 {
+        let layout = self.system.layout();
+        let count = layout.coordinate_count();
+        if contacts.smooth.diagonal.is_empty() {
+            return f64::MAX;
+        }
+        let h = self.scaled.step_size();
+        let fall = h * h * self.system.gravity().norm();
+        let (mut unbalance, mut motion) = (0.0, 0.0);
+        for (row, diagonal) in
+            contacts.smooth.diagonal.iter().enumerate().filter(|(_, diagonal)| **diagonal > 0.0)
+        {
+            unbalance += contacts.residual[row].powi(2) / diagonal;
+            let path = self.work.unit.velocity[row] + self.work.increments[0][row];
+            let fall = if layout.quantities()[row] == Quantity::Length { fall } else { 0.0 };
+            motion += diagonal * (path * path + fall * fall);
+        }
+        let length = self.work.units.length;
+        // At rest and without weight only round-off of positions remains.
+        let floor = (round_off::POSITION * length).powi(2) * contacts.smooth.diagonal[0].abs();
+        let tolerance = contacts.tolerance;
+        let violations = contacts.residual[count..].iter().zip(&layout.quantities()[count..]);
+        let violation = violations
+            .map(|(value, quantity)| value.abs() / if *quantity == Quantity::Length { length } else { 1.0 })
+            .fold(0.0, f64::max);
+        ((unbalance / (motion + floor)).sqrt() / tolerance).max(violation / VIOLATION)
+    }
+
+    fn correct_with(&mut self, contacts: &mut StepContacts) -> Result<(), FactorError> {
+        let layout = self.system.layout();
+        self.work.newton.effort.iterations += 1;
+        self.work.newton.effort.factorizations += 1;
+        self.work.newton.correction = 0.0;
+        if contacts.smooth.is_due() {
+            self.watch.begin(Phase::Linearisation);
+            self.linearize_without_touches(contacts);
+        }
+        contacts.corrections += 1;
+        let is_first = contacts.corrections == 1;
+        if contacts.pattern.follow((layout, is_first), &contacts.near.points, &contacts.states) {
+            self.take_pattern(contacts);
+        }
+        let TangentValues::Real(mut values) = self.work.tangent.matrices.take_values(0) else {
+            unreachable!("the scheme has one stage")
+        };
+        let TangentValues::Real(smooth) = &contacts.smooth.values else {
+            unreachable!("the scheme has one stage")
+        };
+        let touches = (&contacts.near.points[..], &contacts.states[..], self.scaled.dynamic_factor());
+        contacts.pattern.assemble(smooth, touches, (&self.work.motions[0].at, layout), &mut values);
+        self.work.tangent.matrices.set_values(0, TangentValues::Real(values));
+        self.watch.begin(Phase::Factorisation);
+        self.work.tangent.renew(&contacts.pattern.structure, self.scaled.scale())?;
+        self.note_scales();
+        self.solve_for_corrections();
+        let share = self.share_of_correction(contacts);
+        let corrections = std::mem::take(&mut self.work.residuals);
+        self.apply(&corrections, -share);
+        self.work.residuals = corrections;
+        self.update_motions();
+        Ok(())
+    }
+
+    fn linearize_without_touches(&mut self, contacts: &mut StepContacts) {
+        let scaled = self.scaled;
+        let [system] = &self.scheme.coupling.systems[..] else { unreachable!("the scheme has one stage") };
+        let mut smooth = std::mem::replace(&mut contacts.smooth.values, TangentValues::Real(Vec::new()));
+        self.assemble_tangent(&mut smooth.receiver(&scaled, system, &mut []));
+        if let TangentValues::Real(values) = &smooth {
+            let pattern = &self.system.structure().pattern;
+            let rows = 0..self.system.layout().coordinate_count();
+            let of = |row| pattern.position(row, row).map_or(0.0, |position| values[position]);
+            contacts.smooth.diagonal.clear();
+            contacts.smooth.diagonal.extend(rows.map(|row| of(row) / scaled.dynamic_factor()));
+        }
+        contacts.smooth.values = smooth;
+    }
+
+    /// Continues with a solver for the pattern of the touches.
+    fn take_pattern(&mut self, contacts: &StepContacts) {
+        // Without controls only gyroscopic terms and those of rotations in the step make it unsymmetric.
+        let is_symmetric = contacts.solver.name == KINDS[0].name && !self.system.has_feedback();
+        let solver = if is_symmetric { &SYMMETRIC } else { contacts.solver };
+        let structure = &contacts.pattern.structure;
+        self.work.tangent.matrices = StageTangents::new(solver, structure, &self.scheme.coupling);
+    }
+
+    /// The part of the correction, as solved, that leads to the least value along it.
+    fn share_of_correction(&self, contacts: &mut StepContacts) -> f64 {
+        let layout = self.system.layout();
+        let (places, multipliers) = self.work.residuals[0].split_at(layout.coordinate_count());
+        let (forces, violations) = contacts.residual.split_at(layout.coordinate_count());
+        let dot = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+        // The correction is subtracted.
+        let slope = self.scaled.multiplier_factor() * dot(multipliers, violations) - dot(places, forces);
+        let at = &self.work.motions[0].at;
+        let increment = |node: NodeId| {
+            let rows = layout.rows_of_node(node);
+            Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { -places[rows[k] as usize] })
+        };
+        contacts.changes.clear();
+        contacts.changes.extend(contacts.near.points.iter().map(|point| point.change(at, increment)));
+        let steepening = |(state, change): (&TouchState, &Vector3)| change.dot(&(state.slope * change));
+        let touches: f64 = contacts.states.iter().zip(&contacts.changes).map(steepening).sum();
+        let rise = (-slope - touches).max(0.0);
+        contacts.search(slope, rise)
+    }
+}

@@ -1,0 +1,29 @@
+//! What an impact dissipates.
+//!
+//! Legend: e restitution, v velocity at which the touch began, a dissipation factor [s/m].
+
+/// Dissipation of a touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Impact {
+    /// The factor a of the law of Hunt and Crossley [s/m].
+    Dissipation(f64),
+    /// A restitution.
+    Restitution {
+        /// e.
+        coefficient: f64,
+        /// The product a v.
+        relative: f64,
+        /// Slower impacts dissipate as those of this velocity, or do not rebound [m/s].
+        rest_velocity: f64,
+    },
+}
+
+impl Impact {
+    /// a for a touch that began at `velocity` [m/s].
+    pub(super) fn factor(&self, velocity: f64) -> f64 {
+        match *self {
+            Self::Dissipation(factor) => factor,
+            Self::Restitution { relative, rest_velocity, .. } => relative / velocity.max(rest_velocity),
+        }
+    }
+}

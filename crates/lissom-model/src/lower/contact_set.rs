@@ -1,0 +1,87 @@
+//! Contacts of schemes that solve for all touches of a step at once: their parts and laws, without elements and events.
+
+use lissom_mechanics::contact::compliance::Compliance;
+use lissom_mechanics::contact::set::{ContactRule, Coulomb, Impact, TouchLaw, TouchingPart};
+use lissom_mechanics::contact::solids::{FormKind, PlacedSolid};
+use lissom_mechanics::elements::contact::ContactFriction;
+use lissom_mechanics::kinematics::NodeId;
+use lissom_system::{Builder, schemes};
+
+use super::contacts::{check_clamp, meetings_of, solids};
+use super::names::Names;
+use crate::document::{Analysis, AnalysisKind, CompliantEntry, ContactEntry, Document, Restitution};
+use crate::text::report::Problem;
+
+/// Whether the scheme of an analysis solves for all touches of a step at once.
+pub(super) fn is_wanted(analysis: &Analysis) -> bool {
+    let is_dynamic = matches!(analysis.kind, AnalysisKind::Dynamics { .. });
+    is_dynamic
+        && analysis.scheme.as_ref().is_some_and(|scheme| scheme.value == schemes::backward_euler::KIND.name)
+}
+
+/// Adds a contact.
+pub(super) fn add(
+    document: &Document,
+    (entry, law): (&ContactEntry, &CompliantEntry),
+    names: &Names,
+    builder: &mut Builder,
+) -> Result<(), Problem> {
+    let name = &entry.name.value;
+    if law.resistance != [0.0; 2] {
+        let message =
+            format!("contact `{name}`: rolling and torsional friction are not available with backward-euler");
+        return Err(Problem::error(entry.name.span, message).help("remove them, or choose another `scheme`"));
+    }
+    let members: Vec<_> = entry.between.iter().chain(&entry.others).collect();
+    let solids: Vec<_> = members.iter().map(|part| solids(document, &part.value)).collect();
+    let mut known: Vec<[FormKind; 2]> = Vec::new();
+    for tip in 1..members.len() {
+        for base in 0..tip {
+            check_clamp(document, name, [members[base], members[tip]])?;
+            let between =
+                solids[base].iter().flat_map(|one| solids[tip].iter().map(move |other| [one, other]));
+            for pair in between {
+                let kinds = pair.map(|solid| solid.form.kind());
+                if !known.contains(&kinds) {
+                    meetings_of(entry, pair)?;
+                    super::contacts::compliance(document, (entry, law), pair)?;
+                    known.push(kinds);
+                }
+            }
+        }
+    }
+    let mut parts = Vec::new();
+    for (part, own) in members.into_iter().zip(solids) {
+        parts.push(part_of((own, names.node(part)?), builder));
+    }
+    let materials = law.compliance.as_ref().err();
+    let materials = materials.map(|names| {
+        names.each_ref().map(|name| {
+            let found = document.materials.iter().find(|material| material.name.value == name.value);
+            found.map_or([1.0, 0.0], |found| [found.constants.young, found.constants.poisson()])
+        })
+    });
+    let impact = match law.restitution {
+        Restitution::Dissipation(factor) => Impact::Dissipation(factor),
+        Restitution::Coefficient(coefficient, rest_velocity, by) => {
+            Impact::Restitution { coefficient, relative: by.relative_dissipation(coefficient), rest_velocity }
+        }
+    };
+    let friction = law.friction.as_ref();
+    let coulomb =
+        |&ContactFriction { sliding, at_rest, stribeck, .. }: &_| Coulomb { sliding, at_rest, stribeck };
+    // The compliance of two materials depends on the curvatures of each pair.
+    let compliance = law.compliance.as_ref().copied().unwrap_or(Compliance { stiffness: 1.0, exponent: 1.5 });
+    let law = TouchLaw { compliance, impact, friction: friction.map(coulomb) };
+    builder.contacts_mut().rules.push(ContactRule { name: name.clone(), parts, law, materials });
+    Ok(())
+}
+
+/// Index of a part of the set, which is added unless it is known.
+fn part_of((solids, node): (&[PlacedSolid], NodeId), builder: &mut Builder) -> usize {
+    let parts = &mut builder.contacts_mut().parts;
+    parts.iter().position(|known| known.node == node && known.solids == solids).unwrap_or_else(|| {
+        parts.push(TouchingPart::new(node, solids.to_vec()));
+        parts.len() - 1
+    })
+}

@@ -1,0 +1,279 @@
+//! Contacts of many parts, solved for all touches of a step at once.
+
+use lissom::{Model, Record, Session, SessionSnapshot};
+
+use crate::support::refused::refused;
+use crate::support::runs::{run, session};
+use crate::support::series::{last, series};
+
+/// Gravity [m/s²].
+const G: f64 = 9.81;
+
+/// A model on a plane with gravity in direction of x and z, and a step [s].
+fn on_plane([along, down]: [f64; 2], bodies: &str, contact: &str, [step, end]: [f64; 2]) -> String {
+    format!(
+        "lissom = 1\ngravity = [{along}, 0, {down}]\n[ground]\nshape = {{ kind = \"plane\" }}\n{bodies}\n[contacts.all]\n\
+         base = \"ground\"\nstiffness = 1e6\n{contact}\n[outputs.all]\nkind = \"contact_force\"\nof = \"all\"\n\
+         [outputs.energy]\nkind = \"energy\"\n[analysis]\nkind = \"dynamics\"\nscheme = \"backward-euler\"\nstep = {step}\nend = {end}\n"
+    )
+}
+
+fn ball(name: &str, radius: f64, place: [f64; 3], more: &str) -> String {
+    format!(
+        "[bodies.{name}]\nmass = 1\ninertia = {{ sphere = {radius} }}\nshape = {{ sphere = {radius} }}\nposition = {place:?}\n{more}\n\
+         [outputs.{name}]\nkind = \"position\"\nof = \"{name}\"\n[outputs.v_{name}]\nkind = \"velocity\"\nof = \"{name}\"\n"
+    )
+}
+
+/// Balls in layers of four, just apart, in a box, with its walls as the ground.
+fn poured(layers: usize, contact: &str, [step, end]: [f64; 2]) -> String {
+    let mut text = String::new();
+    let mut names = Vec::new();
+    for k in 0..4 * layers {
+        let aside = |factor: f64| 0.002 * ((k as f64 * factor).fract() - 0.5);
+        let of = |bit: usize| if k >> bit & 1 == 0 { -0.0525 } else { 0.0525 };
+        let z = 0.07 + 0.115 * (k / 4) as f64;
+        let place = [of(0) + aside(0.754_877), of(1) + aside(0.569_840), z + aside(0.430_159)];
+        text += &ball(&format!("b{k}"), 0.05, place, "");
+        names.push(format!("\"b{k}\""));
+    }
+    let wall = |normal: [i32; 3]| {
+        let place = normal.map(|n| -0.11 * f64::from(n));
+        format!("{{ kind = \"plane\", normal = {normal:?}, position = {place:?} }}")
+    };
+    let walls = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]].map(wall).join(", ");
+    let contact = format!("tip = \"b0\"\nothers = [{}]\n{contact}", names[1..].join(", "));
+    on_plane([0.0, -G], &text, &contact, [step, end])
+        .replace("shape = { kind = \"plane\" }", &format!("shape = [{{ kind = \"plane\" }}, {walls}]"))
+}
+
+fn largest_rise(values: &[f64]) -> f64 {
+    values.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The value of a column at the middle of a run.
+fn middle(record: &Record, name: &str) -> f64 {
+    let values = series(record, name);
+    values[values.len() / 2]
+}
+
+/// A box sticks on a slope just below the friction angle, without creeping, and slides just above it as it should.
+#[test]
+fn a_box_sticks_on_a_slope_up_to_the_friction_angle() {
+    let friction = 0.4;
+    let body = "[bodies.b]\nmass = 2\ninertia = [0.0083, 0.0083, 0.0133]\nshape = { box = [0.2, 0.2, 0.1] }\nposition = [0, 0, 0.05]\n\
+                [outputs.b]\nkind = \"position\"\nof = \"b\"\n[outputs.v]\nkind = \"velocity\"\nof = \"b\"\n";
+    let contact = "tip = \"b\"\ndissipation = 0.3\nfriction = 0.4";
+    for step in [1e-2, 1e-3] {
+        for share in [0.99, 1.01] {
+            let angle = f64::atan(share * friction);
+            let text = on_plane([G * angle.sin(), -G * angle.cos()], body, contact, [step, 2.0]);
+            let record = run(&text, &[]);
+            let crept = last(&record, "b.x") - middle(&record, "b.x");
+            if share < 1.0 {
+                assert!(crept.abs() < 1e-10, "{step}: {crept:e}");
+            } else {
+                let gained = last(&record, "v.v1") - middle(&record, "v.v1");
+                let wanted = G * (angle.sin() - friction * angle.cos());
+                assert!((gained / wanted - 1.0).abs() < 1e-3, "{step}: {gained} {wanted}");
+            }
+        }
+    }
+}
+
+/// Three balls on a plane carry a fourth, which stands if the friction exceeds tan(asin(1/√3)/2).
+#[test]
+fn a_pyramid_of_balls_stands_with_enough_friction() {
+    let threshold = (0.5 * (1.0 / 3.0_f64.sqrt()).asin()).tan();
+    let (radius, around) = (0.1, 0.2 / 3.0_f64.sqrt());
+    for (share, stands) in [(1.01, true), (0.99, false)] {
+        let mut text = String::new();
+        for k in 0..3 {
+            let angle = 2.0 * std::f64::consts::FRAC_PI_3 * f64::from(k);
+            text += &ball(&format!("b{k}"), radius, [around * angle.cos(), around * angle.sin(), radius], "");
+        }
+        let top = radius + 2.0 * radius * (2.0_f64 / 3.0).sqrt();
+        text += &ball("top", radius, [0.0, 0.0, top], "");
+        let friction = share * threshold;
+        let contact = format!(
+            "tip = \"b0\"\nothers = [\"b1\", \"b2\", \"top\"]\ndissipation = 0.3\nfriction = {friction}"
+        );
+        let record = run(&on_plane([0.0, -G], &text, &contact, [5e-3, 4.0]), &[]);
+        let fallen = top - last(&record, "top.z");
+        assert_eq!(fallen < 1e-3, stands, "{share}: {fallen}");
+    }
+}
+
+/// A ball that slides rolls in the end, at 5/7 of its velocity; errors are of first order in the step.
+#[test]
+fn a_sliding_ball_ends_up_rolling() {
+    let errors = [2e-3, 1e-3].map(|step| {
+        let text = ball("b", 0.1, [0.0, 0.0, 0.1], "velocity = [2, 0, 0]");
+        let contact = "tip = \"b\"\ndissipation = 1\nfriction = 0.2";
+        let record = run(&on_plane([0.0, -G], &text, contact, [step, 1.0]), &[]);
+        assert!((last(&record, "v_b.v1") - 10.0 / 7.0).abs() < 1e-3);
+        assert!(last(&record, "v_b.v3").abs() < 1e-6, "it does not climb");
+        assert!((last(&record, "all.f3") - G).abs() < 1e-4 * G, "{}", last(&record, "all.f3"));
+        let until = 4.0 / (7.0 * 0.2 * G);
+        let wanted = 2.0 * until - 0.1 * G * until * until + 10.0 / 7.0 * (1.0 - until);
+        (last(&record, "b.x") - wanted).abs()
+    });
+    assert!(errors[1] < 1e-3 && errors[1] < 0.7 * errors[0], "{errors:?}");
+}
+
+/// The first rebound has the height of the restitution though no step resolves the impact, and no step gains energy.
+#[test]
+fn impacts_that_steps_do_not_resolve_have_their_restitution() {
+    for restitution in [0.9, 0.7, 0.4] {
+        for (step, allowed) in [(1e-3, 0.03), (1e-4, 0.01)] {
+            let text = ball("b", 0.05, [0.0, 0.0, 0.25], "");
+            let contact = format!("tip = \"b\"\nrestitution = {restitution}\nfriction = 0.4");
+            let record = run(&on_plane([0.0, -G], &text, &contact, [step, 0.6]), &[]);
+            let heights = series(&record, "b.z");
+            let top =
+                heights.windows(3).find(|own| own[1] >= own[0] && own[1] > own[2]).expect("it rebounds")[1];
+            let ratio = (top - 0.05) / 0.2 / (restitution * restitution);
+            assert!((ratio - 1.0).abs() < allowed, "{restitution} {step}: {ratio}");
+            // Of the tolerance of the iterations.
+            let rise = largest_rise(series(&record, "energy.total"));
+            assert!(rise < 5e-6, "{restitution} {step}: {rise:e}");
+        }
+    }
+    // The friction of an impact: μ (1 + e) v.
+    let text = ball("b", 0.05, [0.0, 0.0, 0.1], "velocity = [3, 0, -2]");
+    let contact = "tip = \"b\"\nrestitution = 0.8\nfriction = 0.1";
+    let record = run(&on_plane([0.0, 0.0], &text, contact, [1e-3, 0.1]), &[]);
+    assert!((3.0 - last(&record, "v_b.v1") - 0.1 * 1.8 * 2.0).abs() < 1e-3);
+    assert!((last(&record, "v_b.v3") - 1.6).abs() < 1e-4, "{}", last(&record, "v_b.v3"));
+}
+
+/// Balls that are poured into a box lose energy in every step and come to rest; the ground bears their weight.
+#[test]
+fn a_poured_pile_loses_energy_and_comes_to_rest() {
+    for (contact, step) in [
+        ("dissipation = 0.3\nfriction = 0.4", 1e-3),
+        ("dissipation = 0.3\nfriction = 0.4", 1e-2),
+        ("restitution = 0.5\nfriction = 0.4", 1e-3),
+        ("restitution = 0.2", 2e-3),
+    ] {
+        let record = run(&poured(5, contact, [step, 3.0]), &[]);
+        let energy = series(&record, "energy.total");
+        let allowed = if contact.contains("restitution") { 1e-6 } else { 1e-9 };
+        assert!(largest_rise(energy) < allowed * energy[0], "{contact} {step}: {:e}", largest_rise(energy));
+        assert!(
+            last(&record, "energy.kinetic") < 1e-4,
+            "{contact} {step}: {}",
+            last(&record, "energy.kinetic")
+        );
+    }
+}
+
+/// Free balls that collide with friction and spin keep their momentum, and their angular momentum to first order in the step.
+#[test]
+fn collisions_keep_momenta() {
+    let mut text = String::new();
+    for k in 0..8 {
+        let share = |factor: f64| (f64::from(k) * factor).fract() - 0.5;
+        let place = [0, 1, 2].map(|bit| if k >> bit & 1 == 0 { -0.08 } else { 0.08 });
+        let velocity = place.map(|x| -8.0 * x + share(0.61));
+        let spin = [share(0.31), share(0.77), share(0.13)].map(|x| 40.0 * x);
+        text += &ball(
+            &format!("b{k}"),
+            0.05,
+            place,
+            &format!("velocity = {velocity:?}\nangular_velocity = {spin:?}"),
+        );
+    }
+    let others = "[\"b1\", \"b2\", \"b3\", \"b4\", \"b5\", \"b6\", \"b7\"]";
+    let contact = format!("tip = \"b0\"\nothers = {others}\nrestitution = 0.6\nfriction = 0.3");
+    let text = on_plane([0.0, 0.0], &text, &contact, [1e-3, 0.4])
+        .replace("base = \"ground\"\n", "")
+        .replace("tip = \"b0\"\nothers = [\"b1\", ", "base = \"b0\"\ntip = \"b1\"\nothers = [")
+        + "[outputs.m]\nkind = \"momentum\"\n";
+    // Momenta are those of the equations, which are solved to the tolerance.
+    let record = run(&text, &[("analysis.tolerance", "1e-12")]);
+    let kinetic = series(&record, "energy.kinetic");
+    assert!(kinetic[kinetic.len() - 1] < 0.8 * kinetic[0], "they have collided");
+    for (name, allowed) in
+        [("m.p1", 1e-9), ("m.p2", 1e-9), ("m.p3", 1e-9), ("m.l1", 1e-3), ("m.l2", 1e-3), ("m.l3", 1e-3)]
+    {
+        let values = series(&record, name);
+        let change = (values[values.len() - 1] - values[0]).abs();
+        assert!(change < allowed, "{name} {change:e}");
+    }
+}
+
+/// A chain that falls on the ground keeps its joints to round-off and loses energy.
+#[test]
+fn a_chain_falls_on_the_ground() {
+    let mut text = String::new();
+    let mut names = Vec::new();
+    for k in 0..10 {
+        let place = |k: f64| [0.08 * k, 0.0, 0.3 + 0.06 * k];
+        text += &ball(&format!("c{k}"), 0.04, place(f64::from(k)), "");
+        if k > 0 {
+            let at = place(f64::from(k) - 0.5);
+            text += &format!(
+                "[joints.j{k}]\nkind = \"spherical\"\nbase = \"c{}\"\ntip = \"c{k}\"\nat = {at:?}\n",
+                k - 1
+            );
+            names.push(format!("\"c{k}\""));
+        }
+    }
+    let contact = format!("tip = \"c0\"\nothers = [{}]\ndissipation = 0.3\nfriction = 0.4", names.join(", "));
+    for step in [1e-3, 5e-3] {
+        let mut session = session(&on_plane([0.0, -G], &text, &contact, [step, 1.5]), &[]);
+        let record = crate::support::runs::record(&mut session);
+        let energy = series(&record, "energy.total");
+        assert!(largest_rise(energy) < 1e-9 * energy[0], "{step}: {:e}", largest_rise(energy));
+        assert!(last(&record, "all.points") >= 5.0 && last(&record, "energy.kinetic") < 0.05);
+        let heights: Vec<f64> = (0..10).map(|k| last(&record, &format!("c{k}.z"))).collect();
+        assert!(heights.iter().all(|z| *z > 0.039), "{heights:?}");
+    }
+}
+
+/// A run that is restored in the middle goes on to the last bit.
+#[test]
+fn piles_are_restored_to_the_last_bit() {
+    let text = poured(3, "restitution = 0.5\nfriction = 0.4", [1e-3, 1.0]);
+    let model = Model::from_text("pile.toml", &text);
+    let go_on = |session: &mut Session| {
+        session.step_to(0.5).unwrap();
+        let mut values = Vec::new();
+        session.values(&mut values);
+        values
+    };
+    let mut first = model.session().unwrap();
+    first.step_to(0.3).unwrap();
+    let snapshot = first.snapshot().to_bytes();
+    let straight = go_on(&mut first);
+    let mut other = model.session().unwrap();
+    other.restore(&SessionSnapshot::from_bytes(&snapshot).unwrap()).unwrap();
+    assert_eq!(go_on(&mut other), straight);
+}
+
+/// What the scheme does not have is refused with a remedy.
+#[test]
+fn rolling_friction_is_refused() {
+    let text = on_plane(
+        [0.0, -G],
+        &ball("b", 0.1, [0.0, 0.0, 0.1], ""),
+        "tip = \"b\"\nrolling_friction = 0.01",
+        [1e-3, 1.0],
+    );
+    assert!(refused(&text).contains("backward-euler"), "{}", refused(&text));
+}
+
+/// Parts that overlap at the start are reported, as with other schemes.
+#[test]
+fn overlapping_parts_are_reported() {
+    let text = on_plane(
+        [0.0, -G],
+        &ball("b", 0.1, [0.0, 0.0, 0.08], ""),
+        "tip = \"b\"\ndissipation = 0.3",
+        [1e-3, 0.01],
+    );
+    let session = session(&text, &[]);
+    let warnings: Vec<String> = session.warnings().map(ToString::to_string).collect();
+    assert!(warnings.iter().any(|own| own.contains("push the parts apart")), "{warnings:?}");
+}
