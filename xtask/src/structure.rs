@@ -401,9 +401,9 @@ mod tests {
     const MAX_LINES: [(&str, usize); 11] = [
         ("lissom-motion", 3030),
         ("lissom-solver", 7010),
-        ("lissom-mechanics", 33_520),
-        ("lissom-system", 5380),
-        ("lissom-core", 31_850),
+        ("lissom-mechanics", 33_960),
+        ("lissom-system", 5410),
+        ("lissom-core", 31_900),
         ("lissom-drawing", 1720),
         ("lissom-model", 32_620),
         ("lissom", 25_600),

@@ -359,6 +359,25 @@ impl System {
         self.elements_with(|own| own.laws).for_each(|element| element.switches(at, out));
     }
 
+    /// The same for the elements with a function that is wanted, from the index `first` of `out` on; others keep their values.
+    pub fn update_switches(
+        &self,
+        at: &Kinematics,
+        (first, are_wanted): (usize, &[bool]),
+        out: &mut Vec<Switch>,
+    ) {
+        let (mut next, end) = (first, out.len());
+        for element in self.elements_with(|own| own.laws) {
+            let own = next..next + element.switch_count();
+            next = own.end;
+            if are_wanted[own.clone()].contains(&true) {
+                element.switches(at, out);
+                out.copy_within(end.., own.start);
+                out.truncate(end);
+            }
+        }
+    }
+
     /// For each switching function or law of the elements, the index of the first one in its group, or its own index if it has no
     /// group. `count` returns their number for an element.
     fn leaders(&self, count: impl Fn(&dyn ForceLaws) -> usize) -> Vec<usize> {

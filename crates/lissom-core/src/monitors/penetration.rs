@@ -70,6 +70,9 @@ pub(crate) fn slack_rope(system: &System, at: &Kinematics) -> Option<Warning> {
 fn beyond(share: f64, system: &System, at: &Kinematics) -> Option<(String, [f64; 2])> {
     system.elements_with(|own| own.spring).find_map(|spring| {
         let least = spring.least_elongation()?;
+        if spring.capabilities().laws.is_some_and(|laws| laws.is_idle(at)) {
+            return None;
+        }
         let [gap, ..] = spring.spring_motion(at);
         let named = |node| system.layout().name_of_node(node).to_owned();
         let parts = spring.unknowns().nodes.iter().copied();

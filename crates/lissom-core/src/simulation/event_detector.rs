@@ -145,6 +145,8 @@ pub(crate) struct EventDetector {
     values: Vec<Switch>,
     /// The values at each of the [`INSTANTS`].
     samples: [Vec<Switch>; INSTANTS.len()],
+    /// Functions that may cross zero within the step: only these are evaluated at further step fractions.
+    are_near: Vec<bool>,
     /// Step fractions at which signs are checked, each with the index of its sample if there is one.
     instants: Vec<(f64, Option<usize>)>,
     between: State,
@@ -176,6 +178,7 @@ impl EventDetector {
             leaders: Vec::new(),
             values: Vec::new(),
             samples: Default::default(),
+            are_near: Vec::new(),
             instants: Vec::new(),
             between: start.clone(),
         }
@@ -242,17 +245,23 @@ impl EventDetector {
         (0..self.values.len()).any(|k| self.has_passed(events, k))
     }
 
+    /// Evaluates all functions at a step fraction.
     fn at(&mut self, system: &System, step: DenseOutput<'_>, share: f64) {
-        let (start, end) = (step.from.kinematics.time, step.to.kinematics.time);
-        if share == 0.0 || share == 1.0 {
-            let end = if share == 0.0 { step.from } else { step.to };
-            return values_at(system, end, self.has_switches, &mut self.values);
-        } else if share < 1.0 {
-            step.interpolate(start + share * (end - start), &mut self.between);
-        } else {
-            step.at(share, &mut self.between);
-        }
-        values_at(system, &self.between, self.has_switches, &mut self.values);
+        let state = state_at(step, share, &mut self.between);
+        values_at(system, state, self.has_switches, &mut self.values);
+    }
+
+    /// Evaluates the functions that are near zero; others keep their values.
+    fn near_at(&mut self, system: &System, step: DenseOutput<'_>, share: f64) {
+        let state = state_at(step, share, &mut self.between);
+        update_values_at(system, state, (self.has_switches, &self.are_near), &mut self.values);
+    }
+
+    /// Declares that only one function is near zero.
+    fn follow_only(&mut self, which: usize) {
+        self.are_near.clear();
+        self.are_near.resize(self.values.len(), false);
+        self.are_near[which] = true;
     }
 
     /// First instant of the step of `size` [s] at which a function crosses zero.
@@ -271,9 +280,9 @@ impl EventDetector {
         self.find_instants(events);
         for index in 0..self.instants.len() {
             let (instant, sample) = self.instants[index];
-            match sample {
-                Some(index) => self.values.clone_from(&self.samples[index]),
-                None => self.at(system, step, instant),
+            self.values.clone_from(&self.samples[sample.unwrap_or(0)]);
+            if sample.is_none() {
+                self.near_at(system, step, instant);
             }
             if !self.any_has_passed(events) {
                 before = instant;
@@ -282,10 +291,10 @@ impl EventDetector {
             let mut after = instant;
             while after - before > 0.5 * round_off::ROOT {
                 let middle = 0.5 * (before + after);
-                self.at(system, step, middle);
+                self.near_at(system, step, middle);
                 if self.any_has_passed(events) { after = middle } else { before = middle }
             }
-            self.at(system, step, after);
+            self.near_at(system, step, after);
             let indices: Vec<usize> =
                 (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
             let are_switches = indices.iter().all(|k| *k >= events.len());
@@ -304,9 +313,12 @@ impl EventDetector {
     }
 
     /// Stores the step fractions at which signs are checked: the samples after the start, and the minimum of the polynomial
-    /// through the samples of a function, if the polynomial crosses zero there and no sample does.
+    /// through the samples of a function, if the polynomial crosses zero there and no sample does. Declares which functions are near
+    /// zero: of many possible contacts the root of one does not concern the others.
     fn find_instants(&mut self, events: &[Event]) {
         let mut instants = std::mem::take(&mut self.instants);
+        self.are_near.clear();
+        self.are_near.resize(self.values.len(), false);
         instants.clear();
         instants.extend(INSTANTS.into_iter().enumerate().skip(1).map(|(index, at)| (at, Some(index))));
         for k in 0..self.values.len() {
@@ -317,8 +329,9 @@ impl EventDetector {
             let samples: [f64; INSTANTS.len()] =
                 std::array::from_fn(|index| side.signum() * self.samples[index][k].number);
             let [low, high] = hull(&samples);
-            // The function would have to change by more between two samples than over the whole step.
-            if low < -NOISE * self.known.largest[k] || low > high - low {
+            // Otherwise the function would have to change by more between two samples than over the whole step.
+            self.are_near[k] = low <= high - low || low.is_nan() || high.is_nan();
+            if low < -NOISE * self.known.largest[k] || !self.are_near[k] {
                 continue;
             }
             let polynomial = |cell: usize| quartic(&samples, cell as f64 / GRID as f64);
@@ -389,6 +402,7 @@ impl EventDetector {
         located: &mut LocatedRoot,
     ) -> bool {
         let first = located.indices[0];
+        self.follow_only(first);
         located.refinements += 1;
         if located.is_jump {
             let size = located.size * self.jump(system, step, first, located);
@@ -398,9 +412,9 @@ impl EventDetector {
             }
             return is_there;
         }
-        self.at(system, step, 1.0 - 1e-3);
+        self.near_at(system, step, 1.0 - 1e-3);
         let earlier = self.values[first].number;
-        self.at(system, step, 1.0);
+        self.near_at(system, step, 1.0);
         let value = self.values[first].number;
         let change = -value * 1e-3 * located.size / (value - earlier);
         let is_there = change.abs() <= round_off::ROOT * located.whole || change.is_nan();
@@ -421,7 +435,7 @@ impl EventDetector {
         let unit = located.whole / located.size;
         let (accuracy, most) = (2.0 * round_off::ROOT * unit, unit - 1.0);
         let passes = |detector: &mut Self, share: f64| {
-            detector.at(system, step, share);
+            detector.near_at(system, step, share);
             detector.has_passed(events, which)
         };
         let is_early = !passes(self, 1.0);
@@ -528,6 +542,40 @@ fn quartic(values: &[f64; INSTANTS.len()], at: f64) -> f64 {
         }
     }
     values[0]
+}
+
+/// The state at a step fraction, which is stored `between` the ends if it is none of them.
+fn state_at<'s>(step: DenseOutput<'s>, share: f64, between: &'s mut State) -> &'s State {
+    let (start, end) = (step.from.kinematics.time, step.to.kinematics.time);
+    if share == 0.0 || share == 1.0 {
+        return if share == 0.0 { step.from } else { step.to };
+    } else if share < 1.0 {
+        step.interpolate(start + share * (end - start), between);
+    } else {
+        step.at(share, between);
+    }
+    between
+}
+
+/// Evaluates the monitored functions that `are_near` at a state; others keep their values.
+fn update_values_at(
+    system: &System,
+    state: &State,
+    (has_switches, are_near): (bool, &[bool]),
+    out: &mut Vec<Switch>,
+) {
+    let (signals, at) = (system.signals(), &state.kinematics);
+    signals.event_values_of(at, are_near, |index, value| out[index] = value.into());
+    if has_switches {
+        let (first, end) = (signals.events().len(), out.len());
+        let count = signals.switch_count();
+        if are_near[first..first + count].contains(&true) {
+            signals.switches(at, out);
+            out.copy_within(end.., first);
+            out.truncate(end);
+        }
+        system.update_switches(at, (first + count, are_near), out);
+    }
 }
 
 /// Evaluates all monitored functions at a state.

@@ -525,6 +525,10 @@ impl Laws {
             let magnitude = &mut magnitudes.laws[index - 1];
             magnitude.value = magnitude.value.max(of_group);
             let is_bounded = magnitude.is_bounded;
+            if !is_bounded && !law.is_smooth() && course.bounds([0.0, 1.0]) == Some([0.0; 2]) {
+                // Solids that stay apart: the force is zero over the whole step.
+                return;
+            }
             if !is_bounded {
                 magnitude.value = magnitude.value.max(largest([course.value(1.0); 2]));
             }

@@ -10,7 +10,7 @@ use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::elements::Contribution;
 use lissom_core::elements::contact::{Contact, ContactFriction, Dissipation};
 use lissom_core::elements::contact_resistance::ContactResistance;
-use lissom_core::kinematics::{CarriedFrame, Freedoms};
+use lissom_core::kinematics::{CarriedFrame, CoordinateId, Freedoms, GROUND, Switch};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};
 
@@ -95,6 +95,25 @@ fn derivatives_of_contacts_are_those_of_differences() {
     }
 }
 
+/// A contact that is frozen apart has neither force nor energy wherever its solids are, and its bristles keep their deflection.
+#[test]
+fn contacts_frozen_apart_are_idle() {
+    for (index, pair) in pairs().into_iter().enumerate() {
+        for is_rough in [false, true] {
+            let (system, mut state, mut random) = with_contact(index as u64 + 120, pair.clone(), is_rough);
+            state.kinematics.held[system.signals().first_side()] = -1.0;
+            assert_eq!(system.energy(&state.kinematics).strain, 0.0, "{index}");
+            let here = Configuration::random(&system, &state, 0.02, &mut random);
+            let mut wanted = vec![0.0; system.layout().size()];
+            for (coordinate, motion) in CoordinateId::enumerate(&here.at.coordinates) {
+                wanted[system.layout().row_of_coordinate(coordinate)] = motion.rate;
+            }
+            assert_eq!(here.residual(&system, 0.0), wanted, "{index}");
+            check(&format!("contact {index} apart"), &system, &state, 0.02, &mut random);
+        }
+    }
+}
+
 /// Without friction the forces at rest are the gradient of the energy.
 #[test]
 fn normal_forces_are_the_gradient_of_their_energy() {
@@ -111,4 +130,23 @@ fn normal_forces_are_the_gradient_of_their_energy() {
             assert!((force - slope).abs() < 1e-7 * (1.0 + force.abs()), "{index} {row}: {force} {slope}");
         }
     }
+}
+
+/// While an event is located, functions that are not near zero keep their values.
+#[test]
+fn wanted_switches_alone_are_updated() {
+    let mut builder = Builder::new();
+    for k in 1..4 {
+        let place = Motion::translation(f64::from(k) * Vector3::z());
+        let ball = builder.add_node(&format!("ball {k}"), place, Freedoms::Full);
+        let pair = Arc::new(PointOnSurface { rounding: 0.5, surface: Arc::new(HalfSpace) });
+        let law = (Compliance { stiffness: 1.0, exponent: 1.0 }, Dissipation::Factor(0.0));
+        let contact = Contact::new([GROUND, ball].map(CarriedFrame::of_node), pair, law, None);
+        let contribution = Contribution::to(builder.model()).with(contact);
+        builder.add(contribution);
+    }
+    let (system, state) = builder.build(0.0).expect("valid");
+    let mut values = vec![Switch::from(7.0); 4];
+    system.update_switches(&state.kinematics, (1, &[true, false, true, false]), &mut values);
+    assert_eq!(values, [7.0, 7.0, -1.5, 7.0].map(Switch::from));
 }

@@ -39,6 +39,12 @@ pub trait Pair: Debug + Send + Sync {
     /// The gap at a relative position x [m] and a relative rotation R.
     fn gap(&self, x: &Vector3, rotation: &Matrix3) -> Gap;
 
+    /// The value of the gap alone [m], equal to that of [`gap`](Self::gap) to the last bit: events need no derivatives.
+    /// Default: they are computed as well.
+    fn value(&self, x: &Vector3, rotation: &Matrix3) -> f64 {
+        self.gap(x, rotation).value
+    }
+
     /// Penetration at which the solids are within each other [m]: beyond it the nearest surfaces are those of the other side, or a
     /// sphere is below a plane.
     fn deepest(&self) -> f64;
@@ -76,7 +82,7 @@ impl dyn Pair + '_ {
         let (x, rotation) = arguments.split_at(3);
         let rotation =
             if rotation.is_empty() { Matrix3::identity() } else { Matrix3::from_column_slice(rotation) };
-        self.gap(&Vector3::from_column_slice(x), &rotation).value
+        self.value(&Vector3::from_column_slice(x), &rotation)
     }
 
     /// Range of the gap over ranges of the arguments: it changes by no more than x does and `reach` times R, and above a plane by no

@@ -21,7 +21,7 @@ use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tang
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::Pair;
 use crate::contact::hollow::Hollow;
-use crate::evaluation::switch_states::SwitchStates;
+use crate::evaluation::switch_states::{SwitchStates, frozen_branch};
 use crate::kinematics::{
     CarriedFrame, CoordinateId, CoordinateMotion, GROUND, Kinematics, MAX_NODES, NodeId, NodeMotion, Switch,
 };
@@ -209,17 +209,23 @@ impl Element for BeamContact {
             let (size, states) = (out.size(), 6 * self.nodes.len());
             let geometric = section.forces_by(&wrench);
             let has_states = !self.bristles.is_empty();
-            for (j, column) in self.carriers(section, true) {
-                for (i, row) in self.carriers(section, false) {
-                    let [k, c] = [stiffness, damping].map(|of| block::<6, 6>(of, own, (row.row, column.row)));
-                    let mut by_place = row.columns.tr_mul(&(k * column.columns + c * column.twist_by));
-                    if i < MAX_NODES && j < MAX_NODES {
-                        by_place += geometric[i][j];
+            let mut carriers = [const { None }; MAX_NODES + 1];
+            carriers.iter_mut().zip(self.carriers(section, true)).for_each(|(own, each)| *own = Some(each));
+            for (j, column) in carriers.iter().flatten() {
+                // Of base and section, by the motion of the node.
+                let of_both = [0, SECTION_ROWS].map(|row| {
+                    let [k, c] = [stiffness, damping].map(|of| block::<6, 6>(of, own, (row, column.row)));
+                    [k * column.columns + c * column.twist_by, c * column.columns]
+                });
+                for (i, row) in carriers.iter().flatten() {
+                    let [by_place, by_rate] = &of_both[usize::from(row.row == SECTION_ROWS)];
+                    let mut by_place = row.columns.tr_mul(by_place);
+                    if *i < MAX_NODES && *j < MAX_NODES {
+                        by_place += geometric[*i][*j];
                     }
                     let place = (6 * row.slot, 6 * column.slot);
                     add_block(&mut out.stiffness, size, place, &by_place);
-                    let by_rate = row.columns.tr_mul(&(c * column.columns));
-                    add_block(&mut out.damping, size, place, &by_rate);
+                    add_block(&mut out.damping, size, place, &row.columns.tr_mul(by_rate));
                 }
                 if has_states {
                     let [k, c]: [Matrix3x6<f64>; 2] =
@@ -243,6 +249,9 @@ impl Element for BeamContact {
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
+        if self.is_idle(at) {
+            return Energy::default();
+        }
         self.between(at, |contact, scratch, _| contact.energy(&scratch.at))
     }
 
@@ -297,6 +306,10 @@ impl Spring for BeamContact {
 impl ForceLaws for BeamContact {
     fn switch_count(&self) -> usize {
         1
+    }
+
+    fn is_idle(&self, at: &Kinematics) -> bool {
+        frozen_branch(self.switch_states.of(at).first()) == Some(false)
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {

@@ -33,7 +33,7 @@ use crate::contact::compliance::Compliance;
 use crate::contact::force_over_gap::ForceOverGap;
 use crate::contact::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 use crate::contact::hollow::Hollow;
-use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
+use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
@@ -213,6 +213,10 @@ impl Measurement for ContactMotion {
         [gap, rate, 0.0, 0.0, 0.0, 0.0]
     }
 
+    fn value(&self, component: usize, at: &Kinematics) -> f64 {
+        if component == 0 { self.0.gap(at) } else { self.values(at)[component] }
+    }
+
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
         self.0.spring_gradients(at)[component]
     }
@@ -312,6 +316,20 @@ impl Contact {
     pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
         let touch = self.touch(at);
         [touch.gap.value, touch.rate(), touch.normal_force[0]]
+    }
+
+    /// Gap [m].
+    fn gap(&self, at: &Kinematics) -> f64 {
+        let relative = self.frames.relative(at);
+        self.pair.value(&relative.position, &relative.rotation.matrix())
+    }
+
+    /// Whether the solids are apart, as far as it is known without what a contact needs: by their frozen switch, otherwise by the gap
+    /// of a point.
+    #[inline]
+    fn is_apart(&self, at: &Kinematics) -> bool {
+        let frozen = frozen_branch(self.switch_states.of(at).first());
+        frozen.map_or_else(|| self.pair.reach() == 0.0 && self.gap(at) >= 0.0, |is_touching| !is_touching)
     }
 
     /// What acts on the tip.
@@ -503,6 +521,12 @@ impl Element for Contact {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        if self.is_apart(at) {
+            for (force, &bristle) in out[BRISTLES..].iter_mut().zip(&self.bristles) {
+                *force += at.coordinates[bristle].rate;
+            }
+            return;
+        }
         let touch = self.touch(at);
         if touch.is_touching {
             self.frames.add_wrench(&touch.motion, &-touch.wrench(), out);
@@ -515,11 +539,14 @@ impl Element for Contact {
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let touch = self.touch(at);
         let size = out.size();
         for k in 0..self.bristles.len() {
             out.damping[(BRISTLES + k) * size + BRISTLES + k] += 1.0;
         }
+        if self.is_apart(at) {
+            return;
+        }
+        let touch = self.touch(at);
         if !touch.is_touching {
             return;
         }
@@ -584,6 +611,9 @@ impl Element for Contact {
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
+        if self.is_apart(at) {
+            return Energy::default();
+        }
         let touch = self.touch(at);
         let mut strain = 0.0;
         if touch.is_touching {
@@ -624,7 +654,7 @@ impl Spring for Contact {
     }
 
     fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
-        let found = self.pair.hollow(&self.frames.motion(at).position)?;
+        let found = self.pair.hollow(&self.frames.relative(at).position)?;
         Some((&self.name, found))
     }
 
@@ -649,17 +679,20 @@ impl ForceLaws for Contact {
         1
     }
 
+    fn is_idle(&self, at: &Kinematics) -> bool {
+        self.is_apart(at)
+    }
+
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        let motion = self.frames.motion(at);
-        out.push((-self.pair.gap(&motion.position, &motion.rotation).value).into());
+        out.push((-self.gap(at)).into());
     }
 
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        let motion = self.frames.motion(at);
+        let relative = self.frames.relative(at);
         let mut arguments = [0.0; MAX_ARGUMENTS];
         let (x, rotation) = arguments.split_at_mut(3);
-        x.copy_from_slice(motion.position.as_slice());
-        rotation.copy_from_slice(motion.rotation.as_slice());
+        x.copy_from_slice(relative.position.as_slice());
+        rotation.copy_from_slice(relative.rotation.matrix().as_slice());
         let law = ForceOverGap { gap: &*self.pair, compliance: self.compliance };
         visit(&law, &arguments[..self.pair.arguments()]);
     }
@@ -690,7 +723,60 @@ impl StrainSlopes for Contact {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use lissom_motion::Motion;
+
     use super::*;
+    use crate::kinematics::{GROUND, NodeMotion};
+
+    /// A plane that counts how often a point is compared with it.
+    #[derive(Debug, Default)]
+    struct Counted(AtomicUsize);
+
+    impl Pair for Counted {
+        fn gap(&self, x: &Vector3, _: &Matrix3) -> Gap {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            let (normal, none) = (Vector3::z(), Matrix3x6::zeros());
+            Gap { value: x.z, normal, point: *x, normal_by: none, point_by: none }
+        }
+        fn deepest(&self) -> f64 {
+            f64::INFINITY
+        }
+        fn reach(&self) -> f64 {
+            0.0
+        }
+    }
+
+    /// Many possible contacts cost no more than those that touch.
+    #[test]
+    fn contacts_frozen_apart_are_not_evaluated() {
+        let pair = Arc::new(Counted::default());
+        let frames = [GROUND, NodeId::new(1)].map(CarriedFrame::of_node);
+        let law = (Compliance { stiffness: 1.0, exponent: 1.0 }, Dissipation::Factor(0.0));
+        let mut contact = Contact::new(frames, pair.clone(), law, None);
+        contact.switch_states = SwitchStates::held_at(0, 1);
+        let below = Motion::translation(Vector3::new(0.0, 0.0, -0.1));
+        let mut at = Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes: [Motion::identity(), below].map(NodeMotion::at_rest).to_vec(),
+            coordinates: Vec::new(),
+            held: vec![-1.0],
+            multipliers: Vec::new(),
+        };
+        let evaluate = |at: &Kinematics| {
+            let (mut forces, mut tangents) = ([0.0; BRISTLES], Tangents::new(BRISTLES));
+            contact.forces(at, &mut forces);
+            contact.linearize(at, &mut tangents);
+            let is_zero = forces.iter().chain(&tangents.stiffness).all(|value| *value == 0.0);
+            (is_zero && contact.energy(at) == Energy::default(), contact.is_idle(at))
+        };
+        assert_eq!((evaluate(&at), pair.0.load(Ordering::Relaxed)), ((true, true), 0));
+        at.held[0] = 1.0;
+        assert_eq!(evaluate(&at), (false, false));
+        assert!(pair.0.load(Ordering::Relaxed) > 0);
+    }
 
     /// Bristles yield between the elastic limit and the deflection at slip, and beyond it follow the sliding completely.
     #[test]

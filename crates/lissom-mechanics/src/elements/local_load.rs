@@ -25,7 +25,7 @@ use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Subject, Switch};
 use crate::law::VisitLaw;
 use crate::registry::Function;
-use crate::signals::{MAX_ARGUMENTS, SignalError, SignalFunction};
+use crate::signals::{MAX_ARGUMENTS, SignalError, SignalFunction, with_arguments};
 
 /// Most states of a load.
 pub const MAX_STATES: usize = 6;
@@ -231,12 +231,14 @@ impl LocalLoad {
         let mut values = Values { local: self.local(at), functions: [0.0; MAX_FUNCTIONS] };
         let mut sides = self.switch_states.of(at);
         for (index, LocalFunction { function, arguments, .. }) in self.functions.all.iter().enumerate() {
-            let mut numbers = [0.0; MAX_ARGUMENTS];
-            for (number, &argument) in numbers.iter_mut().zip(arguments) {
-                *number = self.argument(argument, &values, at);
-            }
-            let (own, others) = sides.split_at(function.switch_count().min(sides.len()));
-            values.functions[index] = visit(index, &numbers[..arguments.len()], own);
+            let count = if sides.is_empty() { 0 } else { function.switch_count().min(sides.len()) };
+            let (own, others) = sides.split_at(count);
+            values.functions[index] = with_arguments(arguments.len(), |numbers| {
+                for (number, &argument) in numbers.iter_mut().zip(arguments) {
+                    *number = self.argument(argument, &values, at);
+                }
+                visit(index, numbers, own)
+            });
             sides = others;
         }
         values

@@ -26,7 +26,7 @@ use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
 use crate::contact::compliance::Compliance;
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
-use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
+use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics, Switch};
 use crate::ports::Ports;
@@ -532,7 +532,13 @@ impl ForceLaws for RollingContact {
         1
     }
 
+    fn is_idle(&self, at: &Kinematics) -> bool {
+        frozen_branch(self.switch_states.of(at).first()) == Some(false)
+    }
+
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        out.push((-self.touch(at).gap).into());
+        let relative = self.frames.relative(at);
+        let (gap, _) = self.contact.gap(&relative.rotation.matrix(), &relative.position);
+        out.push((-gap).into());
     }
 }

@@ -19,7 +19,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId};
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -198,6 +198,15 @@ impl<E: Element> Batch<E> {
         }
     }
 
+    /// Number of an item's nodes and its coordinates, if it is idle.
+    #[inline]
+    fn idle(&self, item: usize, at: &Kinematics) -> Option<(usize, &[CoordinateId])> {
+        let item = &self.items[item];
+        let is_idle = item.capabilities().laws.is_some_and(|laws| laws.is_idle(at));
+        let Unknowns { nodes, coordinates, .. } = item.unknowns();
+        is_idle.then_some((nodes.len(), coordinates))
+    }
+
     fn place(&self, item: usize) -> Slot<'_> {
         Slot { rows: self.rows.of(item), segments: self.places.of(item) }
     }
@@ -304,6 +313,12 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.rows.of(index);
+            if let Some((nodes, coordinates)) = self.idle(index, at) {
+                for (&row, &coordinate) in rows[6 * nodes..].iter().zip(coordinates) {
+                    out[row as usize] += at.coordinates[coordinate].rate;
+                }
+                continue;
+            }
             with_scratch(rows.len(), |local| {
                 item.forces(at, local);
                 scatter(rows, local, out);
@@ -354,6 +369,12 @@ impl<E: Element> AnyBatch for Batch<E> {
             }
         }
         for (index, item) in self.items.iter().enumerate() {
+            if let Some((nodes, coordinates)) = self.idle(index, at) {
+                if !coordinates.is_empty() {
+                    out.add_rates(self.place(index), 6 * nodes);
+                }
+                continue;
+            }
             scratch.clear(self.rows.of(index).len());
             match item.capabilities().deformation {
                 Some(deformable) => deformable.linearize_stressed(at, stressed, scratch),

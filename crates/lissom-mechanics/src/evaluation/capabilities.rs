@@ -130,6 +130,12 @@ pub trait ForceLaws: Element {
         None
     }
 
+    /// Whether it exerts no force on its nodes about this configuration, and has the equation z' = 0 for each of its coordinates, if
+    /// that is known without an evaluation: of many possible contacts most cost nothing. Default: it is not known.
+    fn is_idle(&self, _at: &Kinematics) -> bool {
+        false
+    }
+
     /// Passes its scalar laws with their arguments to `visit`, always in the same order, except for linear ones. Default: it
     /// has none.
     fn laws(&self, _at: &Kinematics, _visit: &mut VisitLaw<'_>) {}

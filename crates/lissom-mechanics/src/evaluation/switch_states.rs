@@ -23,10 +23,12 @@ impl SwitchStates {
     }
 }
 
+/// Whether a switch with this frozen state is on its upper branch; none if it decides by itself.
+pub fn frozen_branch(side: Option<&f64>) -> Option<bool> {
+    side.filter(|side| **side != 0.0).map(|side| *side > 0.0)
+}
+
 /// Whether a switch of this value is on its upper branch, given its frozen state if there is one.
 pub fn is_on_upper_branch(side: Option<&f64>, value: f64) -> bool {
-    match side {
-        Some(side) if *side != 0.0 => *side > 0.0,
-        _ => value > 0.0,
-    }
+    frozen_branch(side).unwrap_or(value > 0.0)
 }

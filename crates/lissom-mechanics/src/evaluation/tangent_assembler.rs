@@ -64,6 +64,17 @@ pub struct Slot<'a> {
     pub segments: &'a [Segment],
 }
 
+impl Slot<'_> {
+    /// Positions of the diagonal from the local unknown `first` on.
+    fn diagonal(self, first: usize) -> impl Iterator<Item = usize> {
+        self.segments.iter().filter_map(move |run| {
+            let (row, column) = (usize::from(run.row), usize::from(run.column));
+            let within = column.checked_sub(row).filter(|_| column >= first)?;
+            run.positions().nth(within)
+        })
+    }
+}
+
 impl TangentAssembler<'_> {
     /// Sets all values to zero.
     pub fn clear(&mut self) {
@@ -93,6 +104,16 @@ impl TangentAssembler<'_> {
             Self::Real(sum) => sum.add_element(place, local),
             Self::Complex(sum) => sum.add_element(place, local),
             Self::Each(all) => all.iter_mut().for_each(|own| own.add_element(place, local)),
+        }
+    }
+
+    /// Adds the derivatives of an element whose forces are the rates of its coordinates, the local unknowns from `first` on.
+    pub fn add_rates(&mut self, place: Slot<'_>, first: usize) {
+        match self {
+            Self::Separate(out) => place.diagonal(first).for_each(|position| out.damping[position] += 1.0),
+            Self::Real(sum) => sum.add_rates(place, first),
+            Self::Complex(sum) => sum.add_rates(place, first),
+            Self::Each(all) => all.iter_mut().for_each(|own| own.add_rates(place, first)),
         }
     }
 
@@ -207,6 +228,10 @@ impl<T: Scalar> Sum<'_, T> {
                 *sum += local.stiffness[i * size + i];
             }
         }
+    }
+
+    fn add_rates(&mut self, place: Slot<'_>, first: usize) {
+        place.diagonal(first).for_each(|position| self.values[position] += self.blend.rate);
     }
 
     fn add_lane(&mut self, place: Slot<'_>, [stiffness, damping]: [&[Block]; 2], lane: usize) {

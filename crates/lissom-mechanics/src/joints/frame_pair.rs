@@ -39,10 +39,15 @@ impl FramePair {
         Self { nodes: frames.map(|frame| frame.node), frames }
     }
 
+    /// (R, x).
+    pub(crate) fn relative(&self, at: &Kinematics) -> Motion {
+        let [base, tip] = self.frames.map(|frame| frame.frame(at));
+        tip.relative_to(&base)
+    }
+
     pub(crate) fn motion(&self, at: &Kinematics) -> RelativeMotion {
-        let [base, tip] = self.frames.map(|frame| at.nodes[frame.node].frame * frame.offset);
         let twists = self.frames.map(|frame| frame.offset.adjoint_inverse_times(&at.nodes[frame.node].twist));
-        let relative = tip.relative_to(&base);
+        let relative = self.relative(at);
         let to_tip = relative.inverse().adjoint();
         let carried = to_tip * twists[0];
         RelativeMotion {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{DiscreteValueId, Graph, SignalId};
+use super::{Argument, DiscreteValueId, Graph, SignalId, with_scratch};
 use crate::kinematics::{Kinematics, Subject, Switch};
 
 /// Direction in which a signal crosses zero.
@@ -73,10 +73,49 @@ impl Graph {
     /// because a continued one never jumps, and crosses zero where the signal only touches it.
     pub fn event_values(&self, at: &Kinematics, visit: impl FnMut(f64)) {
         if !self.events.is_empty() {
-            self.evaluate_as_they_are(at, |values| {
+            self.evaluate_events(at, |values| {
                 self.events.iter().map(|event| values[event.root.index()]).for_each(visit);
             });
         }
+    }
+
+    /// The same for the events that `are_wanted` alone, with their indices.
+    pub fn event_values_of(&self, at: &Kinematics, are_wanted: &[bool], mut visit: impl FnMut(usize, f64)) {
+        let wanted = || self.events.iter().enumerate().zip(are_wanted).filter(|(_, is_wanted)| **is_wanted);
+        if wanted().next().is_none() {
+            return;
+        }
+        with_scratch(self.signals.len(), |are_read| {
+            wanted().for_each(|((_, event), _)| are_read[event.root.index()] = 1.0);
+            self.mark_arguments(are_read);
+            let read = self.of_events.iter().copied().filter(|id| are_read[id.index()] != 0.0);
+            self.evaluate_with(at, (read, |_| &[]), |values| {
+                wanted().for_each(|((index, event), _)| visit(index, values[event.root.index()]));
+            });
+        });
+    }
+
+    /// Marks the signals on which marked ones depend between samples: 1 for these, and 0 for others.
+    fn mark_arguments(&self, are_read: &mut [f64]) {
+        for id in SignalId::first(self.signals.len()).rev() {
+            let signal = &self.signals[id];
+            if are_read[id.index()] == 0.0 || signal.sampling.is_some() {
+                continue;
+            }
+            for argument in &signal.arguments {
+                if let Argument::Signal(earlier) = argument {
+                    are_read[earlier.index()] = 1.0;
+                }
+            }
+        }
+    }
+
+    /// Signals on which the roots of events depend, including themselves, in their order.
+    pub(super) fn signals_of_events(&self) -> Vec<SignalId> {
+        let mut are_read = vec![0.0; self.signals.len()];
+        self.events.iter().for_each(|event| are_read[event.root.index()] = 1.0);
+        self.mark_arguments(&mut are_read);
+        SignalId::first(self.signals.len()).filter(|id| are_read[id.index()] != 0.0).collect()
     }
 
     /// Subject of each switch of a signal, in the order of the switches.
@@ -90,7 +129,7 @@ impl Graph {
     /// Appends switching functions, which change their sign where a signal has a kink or a jump, in the order of the
     /// sides.
     pub fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        if self.first_sides.last() == self.first_sides.first() {
+        if self.switch_count() == 0 {
             return;
         }
         self.evaluate(at, |values| {
@@ -102,5 +141,79 @@ impl Graph {
                 signal.function.switches(at.time, arguments, self.sides(id, at), out);
             }
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use crate::signals::measurement::{Component, Gradient, MAX_COMPONENTS, Measurement};
+    use crate::signals::{MeasurementId, Signal, SignalFunction};
+
+    /// A number, and how often it has been measured.
+    struct Counted(f64, AtomicUsize);
+
+    impl Measurement for Counted {
+        fn values(&self, _: &Kinematics) -> [f64; MAX_COMPONENTS] {
+            self.1.fetch_add(1, Ordering::Relaxed);
+            [self.0; MAX_COMPONENTS]
+        }
+        fn gradient(&self, _: usize, _: &Kinematics) -> Gradient {
+            Gradient::zero()
+        }
+    }
+
+    #[derive(Debug)]
+    struct Doubled;
+
+    impl SignalFunction for Doubled {
+        fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
+            2.0 * arguments[0]
+        }
+        fn gradient(&self, _: f64, _: &[f64], _: &[f64], out: &mut [f64]) {
+            out[0] = 2.0;
+        }
+    }
+
+    /// The velocity that an event sets is measured at the event alone, and one root does not require those of other events.
+    #[test]
+    fn events_evaluate_the_signals_of_their_roots_alone() {
+        let counted: Vec<Arc<Counted>> =
+            [1.0, -3.0, 5.0].map(|value| Arc::new(Counted(value, AtomicUsize::new(0)))).to_vec();
+        let measured = |k: usize| Argument::Measured(MeasurementId::new(k));
+        let signal = |argument: Argument| Signal {
+            subject: Subject::nameless("a signal"),
+            text: String::new(),
+            function: Arc::new(Doubled),
+            arguments: vec![argument],
+            sampling: None,
+        };
+        let arguments = [measured(0), Argument::Signal(SignalId::new(0)), measured(1), measured(2)];
+        let event = |root: usize| Event {
+            name: String::new(),
+            root: SignalId::new(root),
+            direction: Direction::Falling,
+            stops: false,
+            sets: vec![(DiscreteValueId::new(0), SignalId::new(3))],
+        };
+        let mut graph = Graph {
+            signals: arguments.map(signal).to_vec(),
+            measurements: counted.iter().map(|of| Component { of: of.clone(), component: 0 }).collect(),
+            events: vec![event(1), event(2)],
+            ..Graph::default()
+        };
+        let (held, nodes) = (graph.held_at_start(), Vec::new());
+        let (coordinates, multipliers) = (Vec::new(), Vec::new());
+        let at = Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates, held, multipliers };
+        let counts = || counted.iter().map(|own| own.1.load(Ordering::Relaxed)).collect::<Vec<_>>();
+        let mut found = Vec::new();
+        graph.event_values(&at, |value| found.push(value));
+        assert_eq!((found, counts()), (vec![4.0, -6.0], vec![1, 1, 0]));
+        let mut found = Vec::new();
+        graph.event_values_of(&at, &[false, true, false], |index, value| found.push((index, value)));
+        assert_eq!((found, counts()), (vec![(1, -6.0)], vec![1, 2, 0]));
     }
 }

@@ -67,6 +67,11 @@ pub trait Measurement: Send + Sync {
     /// Its components [SI]; those beyond its number are zero.
     fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS];
 
+    /// One of its components [SI]. Default: all of them are computed.
+    fn value(&self, component: usize, at: &Kinematics) -> f64 {
+        self.values(at)[component]
+    }
+
     /// Derivatives of a component.
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient;
 }
@@ -83,7 +88,7 @@ pub struct Component {
 impl Component {
     /// Its value [SI].
     pub fn value(&self, at: &Kinematics) -> f64 {
-        self.of.values(at)[self.component]
+        self.of.value(self.component, at)
     }
 
     /// Its derivatives.

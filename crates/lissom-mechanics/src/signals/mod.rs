@@ -163,6 +163,8 @@ pub struct Graph {
     /// Offsets of the sides of each signal's switches among the held values, after inputs and samples, and the end of
     /// the last ones; those of elements follow.
     first_sides: Vec<usize>,
+    /// Signals on which events depend.
+    of_events: Vec<SignalId>,
 }
 
 impl Graph {
@@ -200,22 +202,23 @@ impl Graph {
 
     /// Calls `with` with the values of all signals at a configuration, continued from the sides of their switches.
     pub fn evaluate<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
-        self.evaluate_with(at, |signal| self.sides(signal, at), with)
+        let all = SignalId::first(self.signals.len());
+        self.evaluate_with(at, (all, |signal| self.sides(signal, at)), with)
     }
 
-    /// The same, each switch on the side of its present value.
-    pub(crate) fn evaluate_as_they_are<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
-        self.evaluate_with(at, |_| &[], with)
+    /// The same of the signals on which events depend, each switch on the side of its present value; others are zero.
+    pub(crate) fn evaluate_events<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
+        self.evaluate_with(at, (self.of_events.iter().copied(), |_| &[]), with)
     }
 
     fn evaluate_with<'k, T>(
         &self,
         at: &'k Kinematics,
-        sides: impl Fn(SignalId) -> &'k [f64],
+        (signals, sides): (impl Iterator<Item = SignalId>, impl Fn(SignalId) -> &'k [f64]),
         with: impl FnOnce(&[f64]) -> T,
     ) -> T {
         with_scratch(self.signals.len(), |values| {
-            for id in SignalId::first(self.signals.len()) {
+            for id in signals {
                 values[id.index()] = match self.signals[id].sampling {
                     Some(Sampling { held, .. }) => at.held[held.index()],
                     None => self.compute(id, at, values, sides(id)),
@@ -262,13 +265,15 @@ impl Graph {
     /// The expression of a signal, evaluated even if it is sampled.
     fn compute(&self, id: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
         let signal = &self.signals[id];
-        let mut arguments = [0.0; MAX_ARGUMENTS];
-        self.gather(signal, at, values, &mut arguments);
-        signal.function.value(at.time, &arguments[..signal.arguments.len()], sides)
+        with_arguments(signal.arguments.len(), |arguments| {
+            self.gather(signal, at, values, arguments);
+            signal.function.value(at.time, arguments, sides)
+        })
     }
 
     /// Initial held values: inputs, samples, and the sides of the switches of signals, which are unknown.
     pub fn held_at_start(&mut self) -> Vec<f64> {
+        self.of_events = self.signals_of_events();
         let mut values: Vec<f64> = self.held.iter().map(|&(_, start)| start).collect();
         self.first_sides.clear();
         for signal in &self.signals {
@@ -283,6 +288,11 @@ impl Graph {
     /// Index of the first side of a switch among the held values.
     pub fn first_side(&self) -> usize {
         self.held.len()
+    }
+
+    /// Number of switches of signals between samples.
+    pub fn switch_count(&self) -> usize {
+        self.first_sides.last().map_or(0, |end| end - self.first_side())
     }
 
     /// Sides of a signal's switches.
@@ -481,6 +491,15 @@ impl Graph {
 fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
     let nearest = (elapsed / period).round() * period;
     (elapsed - nearest).abs() <= instants::tolerance(time, period)
+}
+
+/// Calls `with` with the arguments of a function, all zero: most functions have few, and to clear all is as expensive as a short
+/// function.
+pub(crate) fn with_arguments<T>(count: usize, with: impl FnOnce(&mut [f64]) -> T) -> T {
+    match [0.0; 8].get_mut(..count) {
+        Some(few) => with(few),
+        None => with(&mut [0.0; MAX_ARGUMENTS][..count]),
+    }
 }
 
 /// Calls `with` with this number of zeros.

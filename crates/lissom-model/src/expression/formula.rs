@@ -223,6 +223,18 @@ mod tests {
         assert_eq!(switches, [-2.0, -3.0, 2.0].map(Switch::from));
     }
 
+    /// Functions of three numbers fill the stack with the fewest steps.
+    #[test]
+    fn deep_expressions_have_a_stack_that_is_large_enough() {
+        let mut text = "a".to_owned();
+        for depth in 1..14 {
+            text = format!("if(1 - a, {depth}, {text})");
+            let formula = parse(&text).unwrap();
+            assert_eq!(formula.value(0.0, &[1.0], &[]), 1.0, "{text}");
+            assert_eq!(formula.value(0.0, &[0.5], &[]), f64::from(depth), "{text}");
+        }
+    }
+
     #[test]
     fn a_name_is_not_a_function() {
         assert!(parse("tip.u1(3)").unwrap_err().message.contains("unknown function"));

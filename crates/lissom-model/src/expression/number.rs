@@ -77,7 +77,8 @@ impl Number for f64 {
     }
 
     fn to_the(self, exponent: Self) -> Self {
-        self.powf(exponent)
+        // The power that occurs most.
+        if exponent == 2.0 { self * self } else { self.powf(exponent) }
     }
 
     fn of(self, function: Function) -> Self {

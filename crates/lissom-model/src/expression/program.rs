@@ -8,6 +8,8 @@ use super::number::{Number, Point};
 
 /// Depth of the stack an expression may need.
 pub(super) const STACK: usize = 32;
+/// That of short expressions.
+const SMALL_STACK: usize = 12;
 
 /// A step of a compiled expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,9 +58,25 @@ fn run_with<N: Number>(
     steps: &[Step],
     variable: N,
     argument: impl Fn(usize) -> N,
+    replaced: impl FnMut(Function, [N; 3]) -> Option<N>,
+) -> N {
+    // Each value takes a step to enter, and a step removes two at most: the stack of a short expression is small, and to clear a large
+    // one would be as expensive as the steps.
+    if steps.len() <= SMALL_STACK + SMALL_STACK / 2 {
+        run_on(&mut [N::constant(0.0); SMALL_STACK], steps, variable, argument, replaced)
+    } else {
+        run_on(&mut [N::constant(0.0); STACK], steps, variable, argument, replaced)
+    }
+}
+
+#[inline]
+fn run_on<N: Number>(
+    stack: &mut [N],
+    steps: &[Step],
+    variable: N,
+    argument: impl Fn(usize) -> N,
     mut replaced: impl FnMut(Function, [N; 3]) -> Option<N>,
 ) -> N {
-    let mut stack = [N::constant(0.0); STACK];
     let mut top = 0;
     for step in steps {
         match *step {

@@ -169,6 +169,10 @@ impl Pair for CurveOnSurface {
         }
     }
 
+    fn value(&self, x: &Vector3, rotation: &Matrix3) -> f64 {
+        self.nearest(x, rotation).0.value - self.rounding
+    }
+
     fn deepest(&self) -> f64 {
         let depth = self.surface.depth();
         if depth.is_finite() { self.rounding + depth } else { 2.0 * self.rounding.max(self.curve.reach()) }

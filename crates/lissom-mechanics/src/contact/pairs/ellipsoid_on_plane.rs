@@ -17,13 +17,20 @@ pub struct EllipsoidOnPlane {
     pub semi_axes: [f64; 3],
 }
 
+impl EllipsoidOnPlane {
+    /// A² m and S.
+    fn support(&self, own: &Vector3) -> (Vector3, f64) {
+        let stretched = own.component_mul(&Vector3::from(self.semi_axes).map(|axis| axis * axis));
+        (stretched, own.dot(&stretched).sqrt())
+    }
+}
+
 impl Pair for EllipsoidOnPlane {
     fn gap(&self, x: &Vector3, rotation: &Matrix3) -> Gap {
         let squares = Matrix3::from_diagonal(&Vector3::from(self.semi_axes).map(|axis| axis * axis));
         let normal = Vector3::z();
         let own: Vector3 = rotation.tr_mul(&normal);
-        let stretched = squares * own;
-        let support = own.dot(&stretched).sqrt();
+        let (stretched, support) = self.support(&own);
         let point = -stretched / support;
         let place = x + rotation * point;
         let point_by_normal = (stretched * stretched.transpose() / (support * support) - squares) / support;
@@ -37,6 +44,10 @@ impl Pair for EllipsoidOnPlane {
             normal_by: Matrix3x6::zeros(),
             point_by: in_plane * place_by,
         }
+    }
+
+    fn value(&self, x: &Vector3, rotation: &Matrix3) -> f64 {
+        x.z - self.support(&rotation.tr_mul(&Vector3::z())).1
     }
 
     fn deepest(&self) -> f64 {

@@ -38,6 +38,10 @@ impl Pair for PointOnSurface {
         }
     }
 
+    fn value(&self, x: &Vector3, _: &Matrix3) -> f64 {
+        self.surface.value(x) - self.rounding
+    }
+
     fn deepest(&self) -> f64 {
         let depth = self.surface.depth();
         if depth.is_finite() {

@@ -31,6 +31,11 @@ impl RimOnPlane {
     pub fn inset(radius: f64) -> f64 {
         END_INCLINATION * radius
     }
+
+    /// S, for the cosine a₃.
+    fn upright(cosine: f64) -> f64 {
+        (1.0 - cosine * cosine + END_INCLINATION * END_INCLINATION).sqrt()
+    }
 }
 
 impl Pair for RimOnPlane {
@@ -39,7 +44,7 @@ impl Pair for RimOnPlane {
         let a: Vector3 = rotation.column(2).into();
         let normal = Vector3::z();
         let cosine = a.z;
-        let upright = (1.0 - cosine * cosine + END_INCLINATION * END_INCLINATION).sqrt();
+        let upright = Self::upright(cosine);
         let in_plane = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0));
         let side = in_plane * a * (radius / upright);
         // ∂(a₃/S)/∂a₃ = (1 + a₃²/S²)/S.
@@ -54,6 +59,10 @@ impl Pair for RimOnPlane {
             normal_by: Matrix3x6::zeros(),
             point_by: side_by_side(&(in_plane * rotation), &(point_by_axis * axis_by)),
         }
+    }
+
+    fn value(&self, x: &Vector3, rotation: &Matrix3) -> f64 {
+        x.z - self.radius * Self::upright(rotation[(2, 2)]) - self.rounding
     }
 
     fn deepest(&self) -> f64 {

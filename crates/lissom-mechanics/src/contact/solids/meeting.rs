@@ -177,6 +177,20 @@ mod tests {
         }
     }
 
+    /// Events that evaluate the gap alone find the roots at which the force begins.
+    #[test]
+    fn values_alone_are_those_of_gaps() {
+        for (kinds, pair) in pairs() {
+            for k in 0..160 {
+                let share = |factor: f64| (f64::from(k) * factor).fract() * 4.0 - 2.0;
+                let x = Vector3::new(share(0.754_877), share(0.569_840), share(0.430_159));
+                let turn = Rotation::exponential(&Vector3::new(share(0.31), share(0.77), share(0.13)));
+                let (alone, gap) = (pair.value(&x, &turn.matrix()), pair.gap(&x, &turn.matrix()).value);
+                assert_eq!(alone.to_bits(), gap.to_bits(), "{kinds:?}: {alone} {gap}");
+            }
+        }
+    }
+
     /// Values along a motion are within the range over its arguments, and sliding and spinning on a plane do not widen it.
     #[test]
     fn ranges_contain_all_values() {

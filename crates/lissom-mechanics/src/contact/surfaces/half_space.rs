@@ -17,6 +17,10 @@ impl Surface for HalfSpace {
         Distance { value: y.z, normal: Vector3::z(), curvature: Matrix3::zeros() }
     }
 
+    fn value(&self, y: &Vector3) -> f64 {
+        y.z
+    }
+
     fn is_plane(&self) -> bool {
         true
     }

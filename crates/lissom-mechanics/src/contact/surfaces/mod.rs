@@ -38,6 +38,11 @@ pub trait Surface: std::fmt::Debug + Send + Sync {
     /// Distance of the point y [m].
     fn distance(&self, y: &Vector3) -> Distance;
 
+    /// φ [m] alone, equal to that of [`distance`](Self::distance) to the last bit. Default: its derivatives are computed as well.
+    fn value(&self, y: &Vector3) -> f64 {
+        self.distance(y).value
+    }
+
     /// Depth below the surface at which the nearest point of it changes to the other side [m]; infinite for a plane.
     fn depth(&self) -> f64;
 

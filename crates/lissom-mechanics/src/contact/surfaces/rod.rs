@@ -17,6 +17,13 @@ pub struct Rod {
     pub radius: f64,
 }
 
+impl Rod {
+    /// d.
+    fn offset(&self, y: &Vector3) -> Vector3 {
+        Vector3::new(y.x, y.y, y.z - y.z.clamp(-self.half_length, self.half_length))
+    }
+}
+
 impl Surface for Rod {
     fn depth(&self) -> f64 {
         self.radius
@@ -24,7 +31,7 @@ impl Surface for Rod {
 
     fn distance(&self, y: &Vector3) -> Distance {
         let is_beside = y.z.abs() < self.half_length;
-        let from_axis = Vector3::new(y.x, y.y, y.z - y.z.clamp(-self.half_length, self.half_length));
+        let from_axis = self.offset(y);
         // On the axis every direction is nearest.
         let length = from_axis.norm();
         let (normal, length) =
@@ -34,5 +41,9 @@ impl Surface for Rod {
             across[(2, 2)] -= 1.0;
         }
         Distance { value: from_axis.norm() - self.radius, normal, curvature: across / length }
+    }
+
+    fn value(&self, y: &Vector3) -> f64 {
+        self.offset(y).norm() - self.radius
     }
 }

@@ -23,7 +23,7 @@ use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns
 use crate::contact::compliance::Compliance;
 use crate::contact::force_over_gap::{Distance, ForceOverGap};
 use crate::contact::gap::side_by_side;
-use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
+use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::centerline::SUPPORT;
 use crate::kinematics::{GROUND, Kinematics, NodeId, Switch};
 use crate::law::{Interval, VisitLaw};
@@ -305,6 +305,9 @@ impl Element for NearestContact {
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
+        if self.is_idle(at) {
+            return Energy::default();
+        }
         let touch = self.touch(at);
         let depth = self.radius - touch.distance;
         let strain = if touch.is_touching { touch.share[0] * self.compliance.energy(depth) } else { 0.0 };
@@ -345,6 +348,10 @@ impl Spring for NearestContact {
 impl ForceLaws for NearestContact {
     fn switch_count(&self) -> usize {
         1
+    }
+
+    fn is_idle(&self, at: &Kinematics) -> bool {
+        frozen_branch(self.switch_states.of(at).first()) == Some(false)
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
