@@ -395,18 +395,18 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 430;
+    const MAX_CONSTANTS: usize = 431;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 11] = [
         ("lissom-motion", 3030),
         ("lissom-solver", 7010),
-        ("lissom-mechanics", 33_960),
+        ("lissom-mechanics", 34_060),
         ("lissom-system", 5410),
         ("lissom-core", 31_900),
         ("lissom-drawing", 1720),
         ("lissom-model", 32_620),
-        ("lissom", 25_600),
+        ("lissom", 25_620),
         ("lissom-cli", 4910),
         ("lissom-fmi", 660),
         ("lissom-python", 2180),

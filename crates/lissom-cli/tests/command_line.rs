@@ -217,7 +217,11 @@ fn a_pendulum_swings_with_every_scheme_solver_and_scaling() {
         let mut text = std::fs::read_to_string(example("pendulum")).unwrap();
         text = text.replace("spectral_radius = 0.8\n", "");
         folder.write(&format!("{scheme}.toml"), &text.replace("generalized-alpha", scheme));
-        sets.push(vec![format!("{scheme}.toml")]);
+        let mut set = vec![format!("{scheme}.toml")];
+        if scheme == "backward-euler" {
+            set.push("analysis.step=1e-5".into());
+        }
+        sets.push(set);
     }
     sets.extend(solvers.map(|solver| vec!["radau-iia.toml".into(), format!("analysis.solver={solver}")]));
     for scaling in ["physical", "unit", "none"] {
@@ -234,7 +238,7 @@ fn a_pendulum_swings_with_every_scheme_solver_and_scaling() {
         places.push(*record.column("bob", "x").unwrap().last().unwrap());
     }
     assert!(places.len() >= 9);
-    // Second-order schemes at 0.01 s are close to the third-order one.
+    // Second-order schemes at 0.01 s are close to the third-order one, and that of first order with shorter steps.
     assert!(places.iter().all(|place| (place - places[0]).abs() < 1e-4), "{places:?}");
 }
 

@@ -366,3 +366,15 @@ fn a_flexible_mechanism_is_differentiated() {
     let numbers = [("materials.aluminium.E", 73e9), ("materials.aluminium.density", 2700.0)];
     agrees(text, "root.f3", ("root", "f3"), &numbers, &set, 1e-5);
 }
+
+/// Derivatives of steps of the implicit Euler method are not available: whole runs replace them. A fall of n steps is h² n (n + 1)/2 deep.
+#[test]
+fn gradients_of_the_implicit_euler_method_are_those_of_whole_runs() {
+    let text = "lissom = 1\ngravity = [0, 0, \"-g\"]\n[parameters]\ng = 9.81\n[bodies.b]\nmass = 2\ninertia = [1, 1, 1]\n\
+                [outputs.b]\nkind = \"position\"\nof = \"b\"\n[analysis]\nkind = \"dynamics\"\nscheme = \"backward-euler\"\nstep = 0.01\nend = 0.5\n";
+    let model = Model::from_text("model.toml", text);
+    let found =
+        gradient(&model, &"b.z".parse::<Target>().unwrap(), &["parameters.g".to_owned()], true).unwrap();
+    let wanted = -1e-4 * 50.0 * 51.0 / 2.0;
+    assert!((found.derivatives[0].value - wanted).abs() < 1e-7, "{}", found.derivatives[0].value);
+}

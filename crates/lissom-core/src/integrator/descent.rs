@@ -113,7 +113,9 @@ impl StepEquations<'_> {
         self.work.tangent.renew(&contacts.pattern.structure, self.scaled.scale())?;
         self.note_scales();
         self.solve_for_corrections();
-        let share = self.share_of_correction(contacts);
+        // Larger corrections of rotations are cut to a radian, as with other schemes.
+        let most = self.measure_places().size.max(1.0).recip();
+        let share = self.share_of_correction(contacts).min(most);
         let corrections = std::mem::take(&mut self.work.residuals);
         self.apply(&corrections, -share);
         self.work.residuals = corrections;

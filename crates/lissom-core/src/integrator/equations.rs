@@ -392,7 +392,7 @@ impl StepEquations<'_> {
         }
     }
 
-    fn measure_places(&self) -> Correction {
+    pub(super) fn measure_places(&self) -> Correction {
         let work = &*self.work;
         let mut largest = Correction { size: 0.0, reference: 0.0 };
         for (corrections, increments) in work.residuals.iter().zip(&work.increments) {

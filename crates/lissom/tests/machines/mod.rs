@@ -10,3 +10,4 @@ mod prescribed_motion;
 mod rolling;
 mod starts;
 mod to_urdf;
+mod touching;

@@ -158,12 +158,11 @@ impl CoupledPattern {
                     } else {
                         couple.and_then(|index| self.across[index][usize::from(from > to)])
                     };
-                    match columns {
-                        Some(columns) => add_columns(&columns, &block, out),
-                        None => {
-                            let rows = [from, to].map(|node| layout.rows_of_node(node));
-                            add_entries(pattern, rows, &block, out);
-                        }
+                    if let Some(columns) = columns {
+                        add_columns(&columns, &block, out);
+                    } else {
+                        let rows = [from, to].map(|node| layout.rows_of_node(node));
+                        add_entries(pattern, rows, &block, out);
                     }
                 }
             }

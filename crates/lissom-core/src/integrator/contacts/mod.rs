@@ -116,10 +116,11 @@ impl StepContacts {
         self.states.clear();
         for point in &mut self.near.points {
             let displacement = point.displacement(start, &motion.at, &motion.changes);
-            let mut state = point.evaluate(&displacement);
-            if follows && point.update_bound(&state) != 0.0 {
-                state = point.evaluate(&displacement);
-            }
+            let state = if follows {
+                point.evaluate_with_bound(&displacement)
+            } else {
+                point.evaluate(&displacement)
+            };
             self.states.push(state);
             if state.force == Vector3::zeros() {
                 continue;

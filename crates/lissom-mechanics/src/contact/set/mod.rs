@@ -17,7 +17,6 @@ pub use smallest_gap::SmallestGap;
 pub use touch_point::{Step, TouchPoint, TouchState};
 
 use super::compliance::Compliance;
-use super::gap::Gap;
 use super::solids::{Meeting, PlacedSolid, meetings};
 use super::surfaces::MeshError;
 use crate::kinematics::{Kinematics, NodeId};
@@ -68,6 +67,9 @@ pub struct Coulomb {
 impl Coulomb {
     /// μ + (μ_s - μ) exp(-(s/v_s)²) at the sliding velocity s [m/s].
     pub fn coefficient(&self, velocity: f64) -> f64 {
+        if self.at_rest == self.sliding {
+            return self.sliding;
+        }
         self.sliding + (self.at_rest - self.sliding) * (-(velocity / self.stribeck).powi(2)).exp()
     }
 }
@@ -138,7 +140,7 @@ impl ContactSet {
             // Forms that cannot touch are rejected with the model.
             let meetings = self.meetings_of(pair.rule as usize, parts).ok().flatten().unwrap_or_default();
             for (meeting, _) in meetings {
-                let gap = located(&meeting, nodes, at).0.value;
+                let gap = gap_of(&meeting, nodes, at);
                 if gap < 0.0 {
                     found.push((nodes[1], [gap, meeting.pair.deepest()]));
                 }
@@ -148,10 +150,15 @@ impl ContactSet {
     }
 }
 
-/// The gap of a meeting of two parts' nodes, with the normal and the point of contact in inertial axes.
-pub(crate) fn located(meeting: &Meeting, nodes: [NodeId; 2], at: &Kinematics) -> (Gap, Motion) {
+/// The axes of a meeting's base, and its tip in them.
+pub(crate) fn placed(meeting: &Meeting, nodes: [NodeId; 2], at: &Kinematics) -> (Motion, Motion) {
     let frame = |side: usize| at.nodes[nodes[meeting.sides[side]]].frame * meeting.frames[side];
-    let (base, tip) = (frame(0), frame(1));
-    let relative = tip.relative_to(&base);
-    (meeting.pair.gap(&relative.position, &relative.rotation.matrix()), base)
+    let base = frame(0);
+    (base, frame(1).relative_to(&base))
+}
+
+/// The gap of a meeting [m].
+pub(crate) fn gap_of(meeting: &Meeting, nodes: [NodeId; 2], at: &Kinematics) -> f64 {
+    let (_, tip) = placed(meeting, nodes, at);
+    meeting.pair.value(&tip.position, &tip.rotation.matrix())
 }

@@ -70,10 +70,14 @@ impl NearPairs {
                     add(one, other);
                 }
             }
-            unbounded.iter().for_each(|&other| add(one, other));
+            for &other in &*unbounded {
+                add(one, other);
+            }
         }
         for (index, &one) in unbounded.iter().enumerate() {
-            unbounded[..index].iter().for_each(|&other| add(one, other));
+            for &other in &unbounded[..index] {
+                add(one, other);
+            }
         }
         found.sort_unstable_by_key(NearPair::rank);
         found

@@ -1,6 +1,6 @@
 //! The smallest gap of a contact, also where nothing touches. Bounding spheres exclude nearly all pairs of parts with bounds.
 
-use super::{ContactSet, PlacedMeeting, located};
+use super::{ContactSet, PlacedMeeting, gap_of};
 use crate::kinematics::Kinematics;
 
 /// The smallest gap between the parts of a contact.
@@ -55,6 +55,6 @@ fn points(set: &ContactSet, rule: usize, parts: [usize; 2]) -> Vec<PlacedMeeting
 
 fn least_of(set: &ContactSet, parts: [usize; 2], meetings: &[PlacedMeeting], at: &Kinematics) -> f64 {
     let nodes = parts.map(|part| set.parts[part].node);
-    let gaps = meetings.iter().map(|(meeting, _)| located(meeting, nodes, at).0.value);
+    let gaps = meetings.iter().map(|(meeting, _)| gap_of(meeting, nodes, at));
     gaps.fold(f64::INFINITY, f64::min)
 }

@@ -25,7 +25,7 @@
 
 use lissom_motion::{Matrix3, Vector3, Vector6};
 
-use super::{Impact, TouchLaw, located};
+use super::{Impact, TouchLaw, placed};
 use crate::contact::gap::Matrix3x6;
 use crate::contact::solids::Meeting;
 use crate::kinematics::{Kinematics, MotionChange, NodeId, Touch, TouchKey, split};
@@ -109,7 +109,9 @@ impl TouchPoint {
         (start, step): (&Kinematics, Step),
         (reach, before): (f64, Option<&Touch>),
     ) -> Option<Self> {
-        let (gap, base) = located(meeting, nodes, start);
+        let (base, tip) = placed(meeting, nodes, start);
+        // Of curves the value alone costs as much.
+        let gap = meeting.pair.gap(&tip.position, &tip.rotation.matrix());
         if gap.value > reach {
             return None;
         }
@@ -259,9 +261,19 @@ impl TouchPoint {
         [force, by_depth + by_closing / self.size]
     }
 
+    /// Force at a displacement, with its slope, and with the bound of the friction that belongs to it.
+    pub fn evaluate_with_bound(&mut self, displacement: &Vector3) -> TouchState {
+        let normal = self.normal(displacement.z);
+        self.bound = self.friction_bound(normal[0], displacement.xy().norm() / self.size);
+        self.state(displacement, normal)
+    }
+
     /// Force at a displacement, with its slope.
     pub fn evaluate(&self, displacement: &Vector3) -> TouchState {
-        let [normal, by_normal] = self.normal(displacement.z);
+        self.state(displacement, self.normal(displacement.z))
+    }
+
+    fn state(&self, displacement: &Vector3, [normal, by_normal]: [f64; 2]) -> TouchState {
         let mut state = TouchState { displacement: *displacement, ..TouchState::default() };
         state.force.z = normal;
         state.slope[(2, 2)] = by_normal;
@@ -270,7 +282,7 @@ impl TouchPoint {
             return state;
         }
         let pull: [f64; 2] = std::array::from_fn(|k| self.stiffness * (self.bristle[k] + displacement[k]));
-        let size = pull[0].hypot(pull[1]);
+        let size = (pull[0] * pull[0] + pull[1] * pull[1]).sqrt();
         state.slips = size > self.bound;
         for k in 0..2 {
             state.force[k] = if state.slips { -self.bound * pull[k] / size } else { -pull[k] };
@@ -337,4 +349,71 @@ fn carried_bristle(axes: &Matrix3, bristle: &Vector3) -> [f64; 2] {
     let (length, kept) = (bristle.norm(), along.xy().norm());
     let factor = if kept > 0.0 { length / kept } else { 0.0 };
     [factor * along.x, factor * along.y]
+}
+
+#[cfg(test)]
+mod tests {
+    use lissom_motion::Motion;
+
+    use super::super::{ContactRule, ContactSet, Coulomb, TouchingPart};
+    use super::*;
+    use crate::contact::compliance::Compliance;
+    use crate::contact::solids::{Form, PlacedSolid, Solid};
+    use crate::kinematics::{GROUND, NodeMotion};
+
+    /// A ball that touches a plane, with a law.
+    fn point(impact: Impact, exponent: f64, size: f64) -> TouchPoint {
+        let placed = |form| vec![PlacedSolid { form, frame: Motion::IDENTITY }];
+        let parts = vec![
+            TouchingPart::new(GROUND, placed(Form::HalfSpace)),
+            TouchingPart::new(NodeId::new(1), placed(Form::Solid(Solid::Sphere(0.1)))),
+        ];
+        let compliance = Compliance { stiffness: 1e5, exponent };
+        let friction = Some(Coulomb { sliding: 0.3, at_rest: 0.3, stribeck: 0.01 });
+        let law = TouchLaw { compliance, impact, friction };
+        let rules = vec![ContactRule { name: "floor".to_owned(), parts: vec![0, 1], law, materials: None }];
+        let set = ContactSet { parts, rules };
+        let above = Motion::translation(Vector3::new(0.0, 0.0, 0.099));
+        let at = Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes: [Motion::identity(), above].map(NodeMotion::at_rest).to_vec(),
+            coordinates: Vec::new(),
+            held: Vec::new(),
+            multipliers: Vec::new(),
+            touches: Vec::new(),
+        };
+        let meetings = set.meetings_of(0, [0, 1]).expect("solids").expect("they touch");
+        let (meeting, law) = &meetings[0];
+        let step = Step { size, compliance: 2.0 };
+        let nodes = [GROUND, NodeId::new(1)];
+        TouchPoint::at((TouchKey::default(), meeting, law), nodes, (&at, step), (0.1, None)).expect("near")
+    }
+
+    /// Slopes are those of differences, sticking and sliding, resolved and near-rigid, and never negative.
+    #[test]
+    fn slopes_are_those_of_differences() {
+        let restitution = Impact::Restitution { coefficient: 0.5, relative: 1.0, rest_velocity: 1e-3 };
+        for (impact, exponent) in
+            [(Impact::Dissipation(0.5), 1.0), (Impact::Dissipation(0.2), 1.5), (restitution, 1.0)]
+        {
+            for (d, slips) in
+                [(Vector3::new(1e-8, -2e-8, 1e-5), false), (Vector3::new(1e-3, -2e-3, -1e-5), true)]
+            {
+                let mut point = point(impact, exponent, 1e-3);
+                let state = point.evaluate_with_bound(&d);
+                assert!(state.force.z > 0.0 && state.slips == slips, "{impact:?} {d:?} {state:?}");
+                let force = state.force.xy().norm();
+                assert!(force <= 0.3 * state.force.z * (1.0 + 1e-12), "{force}");
+                let step = 1e-10;
+                for k in 0..3 {
+                    let aside = step * Vector3::ith(k, 1.0);
+                    let difference = (point.force(&(d - aside)) - point.force(&(d + aside))) / (2.0 * step);
+                    let error = (difference - state.slope.column(k)).norm();
+                    assert!(error < 1e-5 * state.slope.norm(), "{impact:?} {k} {error}");
+                }
+                assert!(state.slope.symmetric_eigenvalues().min() >= -1e-9 * state.slope.norm());
+            }
+        }
+    }
 }

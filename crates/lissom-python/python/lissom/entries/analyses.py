@@ -34,7 +34,7 @@ class Dynamics(Analysis):
         output_every: number of steps between records; default: every step, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         statistics_window: part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all; a text, or nothing.
-        scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, or nothing.
+        scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, `"backward-euler"`, or nothing.
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
         relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion, if `step` is omitted; default 1e-6; a number from 1e-12 to 0.1, or nothing.
@@ -60,7 +60,7 @@ class Dynamics(Analysis):
     output_every: Count | None = None
     frames_per_second: Number | None = None
     statistics_window: str | None = None
-    scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "radau-iia-9", "radau-iia-13", "energy-decaying"] | None = None
+    scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "radau-iia-9", "radau-iia-13", "energy-decaying", "backward-euler"] | None = None
     end: Number
     step: Number | None = None
     relative_tolerance: Number | None = None

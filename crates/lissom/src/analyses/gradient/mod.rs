@@ -12,6 +12,7 @@ use lissom_core::diagnostics::{Entry, Severity};
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Switch;
 use lissom_core::number::Written;
+use lissom_core::schemes::Parametrization;
 use lissom_model::document::AnalysisKind;
 use lissom_model::{Document, Report};
 use serde::Deserialize;
@@ -279,10 +280,13 @@ pub fn gradient(
     let system = session.simulation().system();
     let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
     let has_samples = system.signals().has_samples() || !system.signals().delays().is_empty();
-    let is_direct = !system.has_feedback() && !has_samples && system.signals().events().is_empty();
+    // The derivatives of its steps are not available.
+    let is_inertial = session.simulation().settings().scheme.parametrization == Parametrization::Inertial;
+    let is_direct =
+        !(is_inertial || system.has_feedback() || has_samples) && system.signals().events().is_empty();
     // Restitution and friction of contacts are events and states, which whole runs include.
     let has_contacts = is_dynamic && !document.contacts.is_empty() && document.events.is_empty();
-    if !(is_direct || has_contacts && !has_samples) {
+    if !(is_direct || (has_contacts || is_inertial) && !has_samples) {
         return Err(GradientError::Feedback);
     }
     let Some(column) = crate::Column::named(session.columns(), &target.column) else {

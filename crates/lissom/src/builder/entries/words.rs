@@ -117,7 +117,7 @@ words! {
 }
 
 words! {
-    /// One of `generalized-alpha`, `hht`, `radau-iia`, `radau-iia-5`, `radau-iia-9`, `radau-iia-13`, `energy-decaying`.
+    /// One of `generalized-alpha`, `hht`, `radau-iia`, `radau-iia-5`, `radau-iia-9`, `radau-iia-13`, `energy-decaying`, `backward-euler`.
     Scheme;
     GeneralizedAlpha = "generalized-alpha";
     Hht = "hht";
@@ -126,6 +126,7 @@ words! {
     RadauIia9 = "radau-iia-9";
     RadauIia13 = "radau-iia-13";
     EnergyDecaying = "energy-decaying";
+    BackwardEuler = "backward-euler";
 }
 
 words! {
