@@ -398,7 +398,7 @@ mod tests {
             [(Impact::Dissipation(0.5), 1.0), (Impact::Dissipation(0.2), 1.5), (restitution, 1.0)]
         {
             for (d, slips) in
-                [(Vector3::new(1e-8, -2e-8, 1e-5), false), (Vector3::new(1e-3, -2e-3, -1e-5), true)]
+                [(Vector3::new(1e-8, -2e-8, 1e-7), false), (Vector3::new(1e-3, -2e-3, -1e-5), true)]
             {
                 let mut point = point(impact, exponent, 1e-3);
                 let state = point.evaluate_with_bound(&d);
