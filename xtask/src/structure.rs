@@ -395,13 +395,13 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 431;
+    const MAX_CONSTANTS: usize = 433;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 11] = [
         ("lissom-motion", 3030),
         ("lissom-solver", 7010),
-        ("lissom-mechanics", 34_060),
+        ("lissom-mechanics", 34_080),
         ("lissom-system", 5410),
         ("lissom-core", 31_900),
         ("lissom-drawing", 1720),

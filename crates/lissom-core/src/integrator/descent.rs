@@ -42,7 +42,7 @@ impl Descent for StepEquations<'_> {
     fn settle(&mut self) -> bool {
         let Some(mut contacts) = self.work.contacts.take() else { return true };
         let (motion, start) = (&self.work.motions[0], &self.start.kinematics);
-        let is_settled = contacts.is_settled(start, motion, self.scaled.step_size());
+        let is_settled = contacts.is_settled(self.system, (start, motion), self.scaled.step_size());
         self.work.contacts = Some(contacts);
         is_settled
     }

@@ -21,7 +21,7 @@ use lissom_solver::SolverKind;
 use self::coupled_pattern::CoupledPattern;
 use self::near_points::NearPoints;
 use crate::contact::set::{Touch, TouchState};
-use crate::kinematics::{Kinematics, LOCKED, Layout};
+use crate::kinematics::{Kinematics, LOCKED, Layout, split};
 use crate::saddle_point::TangentValues;
 use crate::scaling::StageMotion;
 use crate::system::System;
@@ -30,6 +30,10 @@ use crate::system::System;
 const FOLLOWING: usize = 15;
 /// Largest number of times that bounds are fixed anew.
 const MAX_ROUNDS: usize = 10;
+/// Number of times that rebounds are weakened; the last time nothing of them remains.
+const MAX_WEAKENED: usize = 8;
+/// Gain of energy over the work of impacts that is due to the tolerance of the iterations.
+const GAIN: f64 = 1e-5;
 /// Relative change of bounds below which they are accurate.
 const BOUND_CHANGE: f64 = 1e-3;
 /// Corrections after which the tangent without touches is assembled again.
@@ -57,6 +61,8 @@ pub(crate) struct StepContacts {
     /// Corrections made in this step, and rounds with fixed bounds.
     pub(crate) corrections: usize,
     rounds: usize,
+    /// How often rebounds were weakened in this step.
+    weakened: usize,
 }
 
 /// Tangent without touches.
@@ -95,12 +101,13 @@ impl StepContacts {
             residual: vec![0.0; system.layout().size()],
             corrections: 0,
             rounds: 0,
+            weakened: 0,
         }))
     }
 
     /// Finds the points at which parts may touch in a step of `size` [s] from the `start`.
     pub(crate) fn begin(&mut self, system: &System, start: &Kinematics, size: f64) {
-        (self.smooth.age, self.corrections, self.rounds) = (None, 0, 0);
+        (self.smooth.age, self.corrections, self.rounds, self.weakened) = (None, 0, 0, 0);
         self.near.begin(system, start, size);
     }
 
@@ -138,8 +145,48 @@ impl StepContacts {
     }
 
     /// Updates what was fixed while the iterations converged. Whether nothing has changed.
-    pub(crate) fn is_settled(&mut self, start: &Kinematics, motion: &StageMotion, size: f64) -> bool {
-        !self.near.has_left(start, motion, size) && !self.rebounds() && !self.has_new_bounds()
+    pub(crate) fn is_settled(
+        &mut self,
+        system: &System,
+        (start, motion): (&Kinematics, &StageMotion),
+        size: f64,
+    ) -> bool {
+        !self.near.has_left(start, motion, size)
+            && !self.rebounds()
+            && !self.has_new_bounds()
+            && !self.gains_energy(system, &motion.at, size)
+    }
+
+    /// Whether impacts add energy in a step of `size` [s]: their work is more than the dissipation of the scheme, ½ Δvᵀ M Δv. Their
+    /// rebounds are then weakened.
+    fn gains_energy(&mut self, system: &System, at: &Kinematics, size: f64) -> bool {
+        let points = self.near.points.iter().zip(&self.states);
+        let work: f64 = points.map(|(point, state)| point.rigid_work(state)).sum();
+        if work <= 0.0 || self.weakened >= MAX_WEAKENED {
+            return false;
+        }
+        let dissipated: f64 = system
+            .inertias()
+            .iter()
+            .map(|inertia| {
+                let node = &at.nodes[inertia.node()];
+                let (velocity, spin) = split(&node.twist);
+                let mut gained = node.acceleration;
+                let carried = spin.cross(&velocity);
+                for k in 0..3 {
+                    gained[k] += carried[k];
+                }
+                0.5 * size * size * gained.dot(&(inertia.mass() * gained))
+            })
+            .sum();
+        let gain = (work - dissipated) / work;
+        if gain <= GAIN {
+            return false;
+        }
+        self.weakened += 1;
+        // Of one impact that departs at u and gains the share g, 3 g u is enough.
+        let share = if self.weakened < MAX_WEAKENED { (1.0 - 3.0 * gain).clamp(0.0, 0.999) } else { 0.0 };
+        self.near.points.iter_mut().fold(false, |any, point| point.weaken(share) || any)
     }
 
     /// Gives impacts their restitution. Whether one changes a force.

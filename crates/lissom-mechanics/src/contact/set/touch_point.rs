@@ -21,7 +21,8 @@
 //! impact:   b = u + (u + v + a)/100,      u = min(e v, √(a² + v²) - a)
 //! ```
 //!
-//! The step's energy changes by (u² - v² + 2 a u)/(2 w), which the limit of u keeps from being a gain.
+//! The energy of a pair changes by (u² - v² + 2 a u)/(2 w), which the limit of u keeps from being a gain. Rebounds of several impacts at
+//! once are weakened until the whole step gains none.
 
 use lissom_motion::{Matrix3, Vector3, Vector6};
 
@@ -49,8 +50,9 @@ pub struct Step {
 /// Bias and resistance of a touch that a step does not resolve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct NearRigid {
-    /// b [m/s].
+    /// b [m/s], and without a rebound.
     bias: f64,
+    plain: f64,
     /// R h² [m/N].
     yielding: f64,
 }
@@ -157,8 +159,10 @@ impl TouchPoint {
                 > RESOLVED_SHARE
                     * law.compliance.duration(1.0 / step.compliance, impact_velocity.max(rest_velocity))
         {
+            let plain = (-gap.value / step.size).min(rest_velocity);
             found.near_rigid = Some(NearRigid {
-                bias: (-gap.value / step.size).min(rest_velocity),
+                bias: plain,
+                plain,
                 yielding: NEAR_RIGID * step.compliance * step.size * step.size,
             });
         }
@@ -169,9 +173,10 @@ impl TouchPoint {
     /// Gives an impact that began in this step its restitution. Whether that changes its force.
     pub fn rebound(&mut self, state: &TouchState) -> bool {
         let Impact::Restitution { coefficient, rest_velocity, .. } = self.law.impact else { return false };
-        let Some(NearRigid { bias, yielding }) = &mut self.near_rigid else { return false };
+        let Some(NearRigid { bias, yielding, plain }) = &mut self.near_rigid else { return false };
         let arrival = self.impact_velocity;
-        if !(self.is_new && state.force.z > 0.0 && arrival > rest_velocity) {
+        // Once per step: a rebound may have been weakened.
+        if *bias != *plain || !(self.is_new && state.force.z > 0.0 && arrival > rest_velocity) {
             return false;
         }
         let free = (state.displacement.z - *yielding / NEAR_RIGID * state.force.z) / self.size;
@@ -181,6 +186,22 @@ impl TouchPoint {
         let is_changed = needed > *bias;
         *bias = bias.max(needed);
         is_changed
+    }
+
+    /// Reduces the rebound of an impact to a share. Whether there is one.
+    pub fn weaken(&mut self, share: f64) -> bool {
+        let Some(NearRigid { bias, plain, .. }) = &mut self.near_rigid else { return false };
+        let has_rebound = *bias != *plain;
+        // A rebound of nothing remains one.
+        if has_rebound {
+            *bias = (*plain + share * (*bias - *plain)).max(plain.next_up());
+        }
+        has_rebound
+    }
+
+    /// Work of the touch over the step that no elastic energy returns [J].
+    pub fn rigid_work(&self, state: &TouchState) -> f64 {
+        if self.near_rigid.is_some() { state.force.dot(&state.displacement) } else { 0.0 }
     }
 
     /// μ(s) N at a normal force [N] and a sliding velocity [m/s].
@@ -248,7 +269,7 @@ impl TouchPoint {
 
     /// Normal force at a displacement, and its decrease by the displacement.
     fn normal(&self, displacement: f64) -> [f64; 2] {
-        if let Some(NearRigid { bias, yielding }) = self.near_rigid {
+        if let Some(NearRigid { bias, yielding, .. }) = self.near_rigid {
             let closing = bias * self.size - displacement;
             return if closing > 0.0 { [closing / yielding, 1.0 / yielding] } else { [0.0; 2] };
         }
