@@ -40,6 +40,8 @@ pub struct Touch {
     pub normal: f64,
     /// Tangential deflection [m].
     pub bristle: [f64; 3],
+    /// Its stiffness [N/m].
+    pub stiffness: f64,
     /// Sliding velocity [m/s].
     pub slip: f64,
     /// Whether it slips, or has no friction.

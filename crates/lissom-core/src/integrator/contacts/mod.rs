@@ -186,7 +186,11 @@ impl StepContacts {
         self.weakened += 1;
         // Of one impact that departs at u and gains the share g, 3 g u is enough.
         let share = if self.weakened < MAX_WEAKENED { (1.0 - 3.0 * gain).clamp(0.0, 0.999) } else { 0.0 };
-        self.near.points.iter_mut().fold(false, |any, point| point.weaken(share) || any)
+        let mut has_rebounds = false;
+        for point in &mut self.near.points {
+            has_rebounds |= point.weaken(share);
+        }
+        has_rebounds
     }
 
     /// Gives impacts their restitution. Whether one changes a force.

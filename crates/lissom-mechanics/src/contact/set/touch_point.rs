@@ -128,9 +128,15 @@ impl TouchPoint {
         };
         let closing = normal.dot(&(velocity(0) - velocity(1)));
         let impact_velocity = before.map_or(closing.max(0.0), |touch| touch.impact_velocity);
-        let bristle = before.map_or([0.0; 2], |touch| carried_bristle(&axes, &Vector3::from(touch.bristle)));
         let resolved_bristle = 1.0 / (BRISTLE_SHARE * step.size * step.size * step.compliance);
         let is_linear = law.compliance.exponent == 1.0;
+        let stiffness =
+            if is_linear { resolved_bristle.min(law.compliance.stiffness) } else { resolved_bristle };
+        // A shorter step has stiffer bristles: neither their force nor their energy increases.
+        let bristle = before.map_or([0.0; 2], |touch| {
+            let kept = (touch.stiffness / stiffness).min(1.0);
+            carried_bristle(&axes, &(kept * Vector3::from(touch.bristle)))
+        });
         let mut found = Self {
             key,
             nodes,
@@ -145,11 +151,7 @@ impl TouchPoint {
             dissipation: law.impact.factor(impact_velocity),
             near_rigid: None,
             bristle,
-            stiffness: if is_linear {
-                resolved_bristle.min(law.compliance.stiffness)
-            } else {
-                resolved_bristle
-            },
+            stiffness,
             is_new: before.is_none(),
             impact_velocity,
             bound: 0.0,
@@ -348,6 +350,7 @@ impl TouchPoint {
             friction: (sign * self.axes.tr_mul(&tangential)).into(),
             normal: state.force.z,
             bristle: self.axes.tr_mul(&bristle).into(),
+            stiffness: self.stiffness,
             slip: d.xy().norm() / self.size,
             is_sliding: !has_friction || state.slips,
             impact_velocity: self.impact_velocity,
