@@ -307,7 +307,9 @@ fn random_scenes_gain_no_energy() {
             let shape = match k % 3 {
                 0 => format!("{{ sphere = {size} }}"),
                 1 => format!("{{ kind = \"capsule\", radius = {}, length = {size} }}", 0.6 * size),
-                _ if seed % 2 == 0 => format!("{{ box = [{size}, {}, {}] }}", 1.2 * size, 0.8 * size),
+                _ if seed.is_multiple_of(2) => {
+                    format!("{{ box = [{size}, {}, {}] }}", 1.2 * size, 0.8 * size)
+                }
                 _ => format!("{{ sphere = {size} }}"),
             };
             let vector =
@@ -321,14 +323,14 @@ fn random_scenes_gain_no_energy() {
             .unwrap();
             names.push(format!("\"p{k}\""));
         }
-        let law = if seed % 3 == 0 {
+        let law = if seed.is_multiple_of(3) {
             format!("restitution = {}", 0.1 + 0.8 * share())
         } else {
             format!("dissipation = {}", share())
         };
         let contact =
             format!("tip = \"p0\"\nothers = [{}]\n{law}\nfriction = {}", names[1..].join(", "), share());
-        let step = if seed % 4 == 0 { 2e-3 } else { 1e-3 };
+        let step = if seed.is_multiple_of(4) { 2e-3 } else { 1e-3 };
         let wall = |normal: [i32; 3]| {
             let place = normal.map(|n| -0.15 * f64::from(n));
             format!("{{ kind = \"plane\", normal = {normal:?}, position = {place:?} }}")
