@@ -1,6 +1,7 @@
 //! The analysis that a model file requests, with its settings.
 
 use lissom_mechanics::registry::{Parameter, Parameters};
+use lissom_system::schemes::backward_euler;
 use lissom_system::settings::Controlled;
 use lissom_system::solver_features::DisabledFeatures;
 
@@ -54,6 +55,14 @@ pub enum AnalysisKind {
         /// Frequency near which they are sought [Hz]; none for the lowest ones.
         shift: Option<f64>,
     },
+}
+
+impl Analysis {
+    /// Whether its scheme solves for all touches of a step at once, without elements.
+    pub fn gathers_contacts(&self) -> bool {
+        let is_dynamic = matches!(self.kind, AnalysisKind::Dynamics { .. });
+        is_dynamic && self.scheme.as_ref().is_some_and(|scheme| scheme.value == backward_euler::KIND.name)
+    }
 }
 
 impl AnalysisKind {

@@ -30,6 +30,7 @@ mod superelements;
 pub(crate) mod tables;
 mod unloaded;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -159,6 +160,17 @@ impl Document {
     /// Initial rigid motion of the body, point mass or beam `part`; none if it is not specified.
     pub fn initial_motion(&self, part: &str) -> Option<&InitialMotion> {
         self.initial_of_parts.get(part).or(self.initial.as_ref())
+    }
+
+    /// The same with a scheme whose contacts are elements, which linear models need: with the implicit Euler method they are solved with
+    /// the steps.
+    pub fn with_contacts_as_elements(&self) -> Cow<'_, Self> {
+        if !self.analysis.gathers_contacts() {
+            return Cow::Borrowed(self);
+        }
+        let mut changed = self.clone();
+        changed.analysis.scheme = None;
+        Cow::Owned(changed)
     }
 
     /// Whether positions at the start are those of static equilibrium.

@@ -75,7 +75,7 @@ pub(super) fn add(
                 .map(|points| drop(names.rigid_contacts.insert(name, points))),
             ContactLaw::OfBeam(law) => super::beam_contacts::add(document, (entry, law), names, builder)
                 .map(|points| drop(names.contacts.insert(name, points))),
-            ContactLaw::Compliant(law) if contact_set::is_wanted(&document.analysis) => {
+            ContactLaw::Compliant(law) if document.analysis.gathers_contacts() => {
                 contact_set::add(document, (entry, law), names, builder)
             }
             ContactLaw::Compliant(law) => super::contacts::add(document, (entry, law), names, builder)

@@ -5,19 +5,12 @@ use lissom_mechanics::contact::set::{ContactRule, Coulomb, Impact, TouchLaw, Tou
 use lissom_mechanics::contact::solids::{FormKind, PlacedSolid};
 use lissom_mechanics::elements::contact::ContactFriction;
 use lissom_mechanics::kinematics::NodeId;
-use lissom_system::{Builder, schemes};
+use lissom_system::Builder;
 
 use super::contacts::{check_clamp, meetings_of, solids};
 use super::names::Names;
-use crate::document::{Analysis, AnalysisKind, CompliantEntry, ContactEntry, Document, Restitution};
+use crate::document::{CompliantEntry, ContactEntry, Document, Restitution};
 use crate::text::report::Problem;
-
-/// Whether the scheme of an analysis solves for all touches of a step at once.
-pub(super) fn is_wanted(analysis: &Analysis) -> bool {
-    let is_dynamic = matches!(analysis.kind, AnalysisKind::Dynamics { .. });
-    is_dynamic
-        && analysis.scheme.as_ref().is_some_and(|scheme| scheme.value == schemes::backward_euler::KIND.name)
-}
 
 /// Adds a contact.
 pub(super) fn add(
@@ -34,6 +27,13 @@ pub(super) fn add(
     }
     let members: Vec<_> = entry.between.iter().chain(&entry.others).collect();
     let solids: Vec<_> = members.iter().map(|part| solids(document, &part.value)).collect();
+    if document.starts_in_equilibrium() {
+        let message =
+            format!("contact `{name}`: a start from equilibrium is not available with backward-euler");
+        return Err(
+            Problem::error(entry.name.span, message).help("let the parts settle, or choose another `scheme`")
+        );
+    }
     let mut known: Vec<[FormKind; 2]> = Vec::new();
     for tip in 1..members.len() {
         for base in 0..tip {

@@ -109,6 +109,7 @@ impl OperatingPoint {
     }
 
     fn find(self, document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
+        let document = &*document.with_contacts_as_elements();
         match self {
             Self::Undeformed => undeformed(document, hand),
             Self::Rotation => in_rotation(document, hand),
@@ -232,6 +233,12 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     let time = session.progress().time;
     let simulation = session.simulation();
+    if !simulation.system().contacts().is_empty() {
+        let reason =
+            "with the scheme backward-euler contacts have no stiffness between steps; choose another scheme"
+                .to_owned();
+        return Err(ModesError::Time { time, reason });
+    }
     let mut model = linear(simulation.system(), simulation.state(), simulation.settings())?;
     let duration = document.analysis.end - document.analysis.start;
     if !is_static && has_come_to_rest(&model, duration) {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, Session, SessionSnapshot};
 
 use crate::support::refused::refused;
@@ -256,6 +257,20 @@ fn piles_are_restored_to_the_last_bit() {
     assert_eq!(go_on(&mut other), straight);
 }
 
+/// Linear models see the stiffness of contacts whatever the scheme of the motion is.
+#[test]
+fn modes_of_a_ball_on_a_plane_are_those_of_its_contact() {
+    let text = on_plane([0.0, -G], &ball("b", 0.1, [0.0, 0.0, 0.0999], ""), "tip = \"b\"", [1e-3, 1.0]).replace(
+        "[contacts.all]",
+        "[joints.guide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"b\"\naxis = \"z\"\n[contacts.all]",
+    );
+    let request =
+        ModeRequest { count: Some(1), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
+    let found = modes(&Model::from_text("model.toml", &text), &request).unwrap();
+    let wanted = 1e6_f64.sqrt() / std::f64::consts::TAU;
+    assert!((found.modes[0].frequency / wanted - 1.0).abs() < 1e-6, "{}", found.modes[0].frequency);
+}
+
 /// What the scheme does not have is rejected with a remedy.
 #[test]
 fn rolling_friction_is_refused() {
@@ -266,6 +281,14 @@ fn rolling_friction_is_refused() {
         [1e-3, 1.0],
     );
     assert!(refused(&text).contains("backward-euler"), "{}", refused(&text));
+}
+
+/// Contacts that are solved with the steps do not hold parts in a static equilibrium.
+#[test]
+fn a_start_from_equilibrium_is_rejected() {
+    let text = on_plane([0.0, -G], &ball("b", 0.1, [0.0, 0.0, 0.1], ""), "tip = \"b\"", [1e-3, 1.0])
+        + "[initial]\nequilibrium = true\n";
+    assert!(refused(&text).contains("equilibrium"), "{}", refused(&text));
 }
 
 /// Parts that overlap at the start are reported, as with other schemes.
