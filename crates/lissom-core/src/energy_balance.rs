@@ -132,11 +132,6 @@ impl EnergyBalance {
         energy_balance
     }
 
-    /// Surplus relative to the energy exchanged.
-    pub fn relative_surplus(&self) -> f64 {
-        self.surplus / (self.turned_over + self.least_known())
-    }
-
     /// Whether the surplus requires a warning.
     pub fn is_noteworthy(&self) -> bool {
         self.surplus > NOTEWORTHY * self.turned_over + self.least_known()

@@ -137,11 +137,6 @@ impl System {
         out.scratch = Some(scratch);
     }
 
-    /// Number of kinds of elements, each of which is evaluated together.
-    pub fn kind_count(&self) -> usize {
-        self.batches.len()
-    }
-
     /// Passes the derivatives at `point` with respect to the unknowns of `chart` to `out`.
     pub fn assemble_tangent(
         &self,

@@ -497,9 +497,4 @@ impl System {
     pub fn has_driven_constraint(&self, at: &Kinematics) -> bool {
         !self.placed.is_empty() && self.constraints.others().any(|constraint| constraint.depends_on_time(at))
     }
-
-    /// Whether a constraint may depend explicitly on time at any instant.
-    pub fn may_have_driven_constraint(&self) -> bool {
-        self.constraints.others().any(Constraint::may_depend_on_time)
-    }
 }

@@ -94,16 +94,6 @@ impl ScaleBy {
     /// Names in the model file.
     pub const NAMES: &'static [&'static str] = &["physical", "unit", "none"];
 
-    /// The scaling of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        match name {
-            "physical" => Some(Self::Physical),
-            "unit" => Some(Self::Unit),
-            "none" => Some(Self::None),
-            _ => None,
-        }
-    }
-
     /// Its name in the model file.
     pub fn name(self) -> &'static str {
         match self {

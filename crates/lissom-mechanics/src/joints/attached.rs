@@ -85,11 +85,6 @@ impl AttachedJoint {
         motion_between(self.frames, at)
     }
 
-    /// Relative motion of tip to base, between the frames of outputs.
-    pub fn output_motion(&self, at: &Kinematics) -> Motion {
-        motion_between(self.output_frames, at)
-    }
-
     /// Relative rotation and position at the start.
     pub fn start(&self, at: &Kinematics) -> (Matrix3, Vector3) {
         let Motion { rotation, position } = self.relative_motion(at);
