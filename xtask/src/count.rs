@@ -49,6 +49,8 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("bridge-crossing", "0.12"),
     ("cam-follower", "0.05"),
     ("computed-torque", "2"),
+    ("contacts/ball-bearing", "0.01"),
+    ("contacts/pile-of-spheres", "0.25"),
     ("controlled-arm", "1"),
     ("crane-slack-cable", "1.2"),
     ("delta-robot", "0.5"),
