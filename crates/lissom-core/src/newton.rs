@@ -287,19 +287,20 @@ pub fn descend<D: Descent>(system: &mut D) -> Result<Outcome, Failure> {
             return Err(Failure::NotFinite { iterations: outcome.iterations });
         }
         if outcome.correction <= 1.0 {
-            if system.settle() || settled >= MAX_DESCENTS {
+            if system.settle() {
                 return Ok(outcome);
             }
             settled += 1;
-            continue;
         }
-        if outcome.iterations >= MAX_DESCENTS {
+        if outcome.iterations.max(settled) >= MAX_DESCENTS {
             let Outcome { iterations, correction, .. } = outcome;
             return Err(Failure::NotConverged { iterations, correction });
         }
-        system.descend().map_err(Failure::Factor)?;
-        outcome.iterations += 1;
-        outcome.factorizations += 1;
+        if outcome.correction > 1.0 {
+            system.descend().map_err(Failure::Factor)?;
+            outcome.iterations += 1;
+            outcome.factorizations += 1;
+        }
     }
 }
 

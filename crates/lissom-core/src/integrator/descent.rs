@@ -13,9 +13,6 @@ use crate::saddle_point::TangentValues;
 use crate::saddle_point::stage_tangents::StageTangents;
 use crate::settings::{Phase, Settings};
 
-/// Violations of constraints, over the representative length or in radians, that are round-off of a solution.
-const VIOLATION: f64 = 1e-10;
-
 impl Descent for StepEquations<'_> {
     fn residual(&mut self) -> f64 {
         self.watch.begin(Phase::Evaluation);
@@ -78,12 +75,9 @@ impl StepEquations<'_> {
         let length = self.work.units.length;
         // At rest and without weight only round-off of positions remains.
         let floor = (round_off::POSITION * length).powi(2) * contacts.smooth.diagonal[0].abs();
-        let tolerance = contacts.tolerance;
-        let violations = contacts.residual[count..].iter().zip(&layout.quantities()[count..]);
-        let violation = violations
-            .map(|(value, quantity)| value.abs() / if *quantity == Quantity::Length { length } else { 1.0 })
-            .fold(0.0, f64::max);
-        ((unbalance / (motion + floor)).sqrt() / tolerance).max(violation / VIOLATION)
+        let violations = layout.relative_violations(&contacts.residual[count..], length);
+        let violation = violations.fold(0.0, f64::max);
+        ((unbalance / (motion + floor)).sqrt() / contacts.tolerance).max(violation / round_off::ITERATION)
     }
 
     fn correct_with(&mut self, contacts: &mut StepContacts) -> Result<(), FactorError> {
@@ -91,11 +85,10 @@ impl StepEquations<'_> {
         self.work.newton.effort.iterations += 1;
         self.work.newton.effort.factorizations += 1;
         self.work.newton.correction = 0.0;
-        if contacts.smooth.is_due() {
+        if contacts.count_correction() {
             self.watch.begin(Phase::Linearisation);
             self.linearize_without_touches(contacts);
         }
-        contacts.corrections += 1;
         let is_first = contacts.corrections == 1;
         if contacts.pattern.follow((layout, is_first), &contacts.near.points, &contacts.states) {
             self.take_pattern(contacts);

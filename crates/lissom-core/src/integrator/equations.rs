@@ -168,7 +168,7 @@ impl StepEquations<'_> {
         let layout = self.system.layout();
         let stiffness = (0..layout.coordinate_count())
             .filter(|&row| layout.quantities()[row] == Quantity::Length)
-            .fold(0.0_f64, |most, row| most.max(self.work.stiffness[row].abs()));
+            .fold(0.0_f64, |most, row| most.max(self.work.round_off.stiffness[row].abs()));
         let nodes = &self.start.kinematics.nodes;
         let far = nodes.iter().fold(0.0_f64, |most, node| most.max(node.frame.position.amax()));
         round_off::OPERATIONS * far * stiffness
@@ -176,7 +176,7 @@ impl StepEquations<'_> {
 
     /// Linearises at the last stage: stores the tangent values of all decoupled systems, before equilibration.
     pub(crate) fn linearize(&mut self) {
-        let mut stiffness = std::mem::take(&mut self.work.stiffness);
+        let mut stiffness = std::mem::take(&mut self.work.round_off.stiffness);
         let scheme = self.scheme;
         let systems = &scheme.coupling.systems;
         let take = |index: usize| match systems.get(index) {
@@ -197,7 +197,7 @@ impl StepEquations<'_> {
         for (index, own) in values.into_iter().enumerate().take(systems.len()) {
             self.work.tangent.matrices.set_values(index, own);
         }
-        self.work.stiffness = stiffness;
+        self.work.round_off.stiffness = stiffness;
     }
 
     /// Passes the derivatives at the last stage to `out`.

@@ -67,6 +67,8 @@ pub(crate) struct RoundOff {
     pub(crate) travel: Option<f64>,
     /// Forces below this are round-off of the stiffest elements' strains [N].
     pub(crate) force: f64,
+    /// Diagonal of the derivatives by position, by row, from which it follows.
+    pub(crate) stiffness: Vec<f64>,
 }
 
 /// Scaled sizes of units.
@@ -117,8 +119,6 @@ pub(crate) struct Workspace {
     pub(crate) motions: Vec<StageMotion>,
     /// Residuals, then corrections, by stage.
     pub(crate) residuals: Vec<Vec<f64>>,
-    /// Diagonal of the derivatives by position, by row.
-    pub(crate) stiffness: Vec<f64>,
     /// The tangents of the scheme's decoupled systems.
     pub(crate) tangent: SaddlePoint<StageTangents>,
     /// Redundant equations, which steps omit.
@@ -169,7 +169,6 @@ impl Workspace {
                 stages + usize::from(scheme.tableau.is_some())
             ],
             residuals: vec![vec![0.0; layout.size()]; stages],
-            stiffness: vec![0.0; layout.size()],
             tangent,
             redundancy,
             newton: Progress {
@@ -181,7 +180,7 @@ impl Workspace {
                 anderson: Anderson::new(stages, layout.size(), &sizes),
             },
             error: EstimatedError { unfiltered: vec![0.0; count], filtered: vec![0.0; layout.size()] },
-            round_off: RoundOff { travel: None, force: 0.0 },
+            round_off: RoundOff { travel: None, force: 0.0, stiffness: vec![0.0; layout.size()] },
             units: Units {
                 coordinates: sizes,
                 multipliers: vec![1.0; layout.multiplier_count],

@@ -28,16 +28,10 @@ use crate::system::System;
 
 /// Corrections in which bounds of friction follow the iterates. From then on they are fixed until the iterations converge.
 const FOLLOWING: usize = 15;
-/// Largest number of times that bounds are fixed anew.
+/// Largest number of times in a step that bounds are fixed anew, and that rebounds are weakened.
 const MAX_ROUNDS: usize = 10;
-/// Number of times that rebounds are weakened; the last time nothing of them remains.
-const MAX_WEAKENED: usize = 8;
-/// Gain of energy over the work of impacts that is due to the tolerance of the iterations.
-const GAIN: f64 = 1e-5;
 /// Relative change of bounds below which they are accurate.
 const BOUND_CHANGE: f64 = 1e-3;
-/// Corrections after which the tangent without touches is assembled again.
-const MAX_AGE: usize = 6;
 /// Share of its value at the start that the slope along a correction may have at its end without a search.
 const WHOLE: f64 = 0.1;
 /// The same at the end of a search.
@@ -58,11 +52,9 @@ pub(crate) struct StepContacts {
     pub(crate) smooth: SmoothTangent,
     /// Residual in SI, by row.
     pub(crate) residual: Vec<f64>,
-    /// Corrections made in this step, and rounds with fixed bounds.
+    /// Corrections made in this step, and how often bounds were fixed anew or rebounds weakened.
     pub(crate) corrections: usize,
     rounds: usize,
-    /// How often rebounds were weakened in this step.
-    weakened: usize,
 }
 
 /// Tangent without touches.
@@ -70,17 +62,6 @@ pub(crate) struct SmoothTangent {
     pub(crate) values: TangentValues,
     /// Its diagonal by coordinate [SI]; empty before the first.
     pub(crate) diagonal: Vec<f64>,
-    /// Corrections made with it in this step; none before the first.
-    age: Option<usize>,
-}
-
-impl SmoothTangent {
-    /// Counts a correction. Whether the tangent is to be assembled for it.
-    pub(crate) fn is_due(&mut self) -> bool {
-        let is_due = self.age.is_none_or(|age| age >= MAX_AGE);
-        self.age = Some(if is_due { 1 } else { self.age.unwrap_or(0) + 1 });
-        is_due
-    }
 }
 
 impl StepContacts {
@@ -97,17 +78,23 @@ impl StepContacts {
             states: Vec::new(),
             changes: Vec::new(),
             pattern: CoupledPattern::new(system.layout(), system.structure()),
-            smooth: SmoothTangent { values, diagonal: Vec::new(), age: None },
+            smooth: SmoothTangent { values, diagonal: Vec::new() },
             residual: vec![0.0; system.layout().size()],
             corrections: 0,
             rounds: 0,
-            weakened: 0,
         }))
+    }
+
+    /// Counts a correction. Whether the tangent without touches is to be assembled for it: it hardly changes within a step, unless the
+    /// iterations converge slowly.
+    pub(crate) fn count_correction(&mut self) -> bool {
+        self.corrections += 1;
+        self.corrections == 1 || self.corrections > FOLLOWING
     }
 
     /// Finds the points at which parts may touch in a step of `size` [s] from the `start`.
     pub(crate) fn begin(&mut self, system: &System, start: &Kinematics, size: f64) {
-        (self.smooth.age, self.corrections, self.rounds, self.weakened) = (None, 0, 0, 0);
+        (self.corrections, self.rounds) = (0, 0);
         self.near.begin(system, start, size);
     }
 
@@ -157,12 +144,12 @@ impl StepContacts {
             && !self.gains_energy(system, &motion.at, size)
     }
 
-    /// Whether impacts add energy in a step of `size` [s]: their work is more than the dissipation of the scheme, ½ Δvᵀ M Δv. Their
-    /// rebounds are then weakened.
+    /// Whether impacts add energy in a step of `size` [s]: they supply more than the scheme dissipates, ½ Δvᵀ M Δv. Their rebounds are
+    /// then weakened.
     fn gains_energy(&mut self, system: &System, at: &Kinematics, size: f64) -> bool {
         let points = self.near.points.iter().zip(&self.states);
-        let work: f64 = points.map(|(point, state)| point.rigid_work(state)).sum();
-        if work <= 0.0 || self.weakened >= MAX_WEAKENED {
+        let supplied: f64 = points.map(|(point, state)| point.supplied(state)).sum();
+        if supplied <= 0.0 || self.rounds > MAX_ROUNDS {
             return false;
         }
         let dissipated: f64 = system
@@ -179,13 +166,13 @@ impl StepContacts {
                 0.5 * size * size * gained.dot(&(inertia.mass() * gained))
             })
             .sum();
-        let gain = (work - dissipated) / work;
-        if gain <= GAIN {
+        let gain = (supplied - dissipated) / supplied;
+        if gain <= self.tolerance {
             return false;
         }
-        self.weakened += 1;
         // Of one impact that departs at u and gains the share g, 3 g u is enough.
-        let share = if self.weakened < MAX_WEAKENED { (1.0 - 3.0 * gain).clamp(0.0, 0.999) } else { 0.0 };
+        let share = if self.rounds < MAX_ROUNDS { (1.0 - 3.0 * gain).max(0.0) } else { 0.0 };
+        self.rounds += 1;
         let mut has_rebounds = false;
         for point in &mut self.near.points {
             has_rebounds |= point.weaken(share);

@@ -10,10 +10,8 @@ use crate::kinematics::{GROUND, Kinematics};
 use crate::scaling::StageMotion;
 use crate::system::System;
 
-/// Allowed travel over that at the velocity of the start.
-const SPEED_SHARE: f64 = 1.2;
-/// Parts that travel farther than allowed are allowed this much of their travel.
-const TRAVEL_SHARE: f64 = 1.5;
+/// Allowed travel over the expected one: that at the velocity and acceleration of the start, or the one that was too long.
+const TRAVEL_SHARE: f64 = 1.3;
 
 /// Finds the points.
 pub(crate) struct NearPoints {
@@ -76,7 +74,7 @@ impl NearPoints {
                 screw.fixed_rows::<3>(0).norm() + self.levers[index] * screw.fixed_rows::<3>(3).norm()
             };
             let acceleration = gravity + farthest(&node.acceleration);
-            self.travel[index] = size * (SPEED_SHARE * farthest(&node.twist) + size * acceleration);
+            self.travel[index] = TRAVEL_SHARE * size * (farthest(&node.twist) + size * acceleration);
         }
         self.find(start, size);
     }

@@ -25,6 +25,7 @@
 //! once are weakened until the whole step gains none.
 
 use lissom_motion::{Matrix3, Vector3, Vector6};
+use nalgebra::Vector2;
 
 use super::{Impact, TouchLaw, placed};
 use crate::contact::gap::Matrix3x6;
@@ -57,6 +58,21 @@ struct NearRigid {
     yielding: f64,
 }
 
+/// Where a point is at the start of the step, in inertial axes.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Rows t₁, t₂, n.
+    axes: Matrix3,
+    /// Point of contact [m].
+    point: Vector3,
+    /// From the nodes' positions to it [m].
+    arms: [Vector3; 2],
+    /// φ [m].
+    gap: f64,
+    /// Penetration at which the solids are within each other [m].
+    deepest: f64,
+}
+
 /// A point at which two parts may touch in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct TouchPoint {
@@ -66,14 +82,7 @@ pub struct TouchPoint {
     pub nodes: [NodeId; 2],
     /// Whether the tip is the first part of the contact.
     is_reversed: bool,
-    /// Rows t₁, t₂, n in inertial axes.
-    axes: Matrix3,
-    /// Point of contact in inertial axes [m].
-    point: Vector3,
-    /// From the nodes' positions at the start to it, in inertial axes [m].
-    arms: [Vector3; 2],
-    gap: f64,
-    deepest: f64,
+    place: Place,
     size: f64,
     law: TouchLaw,
     /// Dissipation factor a [s/m].
@@ -141,11 +150,7 @@ impl TouchPoint {
             key,
             nodes,
             is_reversed: meeting.sides == [1, 0],
-            axes,
-            point,
-            arms,
-            gap: gap.value,
-            deepest: meeting.pair.deepest(),
+            place: Place { axes, point, arms, gap: gap.value, deepest: meeting.pair.deepest() },
             size: step.size,
             law: *law,
             dissipation: law.impact.factor(impact_velocity),
@@ -201,9 +206,22 @@ impl TouchPoint {
         has_rebound
     }
 
-    /// Work of the touch over the step that no elastic energy returns [J].
-    pub fn rigid_work(&self, state: &TouchState) -> f64 {
-        if self.near_rigid.is_some() { state.force.dot(&state.displacement) } else { 0.0 }
+    /// Energy that a near-rigid touch supplies over the step, to the motion of its parts and to its bristle [J].
+    pub fn supplied(&self, state: &TouchState) -> f64 {
+        if self.near_rigid.is_none() {
+            return 0.0;
+        }
+        let [before, after] = [Vector2::from(self.bristle), self.bristle_at(state)].map(|z| z.norm_squared());
+        state.force.dot(&state.displacement) + 0.5 * self.stiffness * (after - before)
+    }
+
+    /// Deflection of the bristle at the end of the step [m].
+    fn bristle_at(&self, state: &TouchState) -> Vector2<f64> {
+        match (self.law.friction, state.slips) {
+            (None, _) => Vector2::zeros(),
+            (Some(_), false) => Vector2::from(self.bristle) + state.displacement.xy(),
+            (Some(_), true) => -state.force.xy() / self.stiffness,
+        }
     }
 
     /// μ(s) N at a normal force [N] and a sliding velocity [m/s].
@@ -225,9 +243,9 @@ impl TouchPoint {
         let of = |k: usize| {
             let node = self.nodes[k];
             let shift = start.nodes[node].frame.rotation.apply(&changes[node].shift);
-            shift + self.size * at.nodes[node].angular_velocity().cross(&self.arms[k])
+            shift + self.size * at.nodes[node].angular_velocity().cross(&self.place.arms[k])
         };
-        self.axes * (of(1) - of(0))
+        self.place.axes * (of(1) - of(0))
     }
 
     /// The change of d by increments of both nodes in the axes of their bodies.
@@ -236,9 +254,9 @@ impl TouchPoint {
             let node = self.nodes[k];
             let (shift, turn) = split(&increment(node));
             let rotation = &at.nodes[node].frame.rotation;
-            rotation.apply(&shift) + rotation.apply(&turn).cross(&self.arms[k])
+            rotation.apply(&shift) + rotation.apply(&turn).cross(&self.place.arms[k])
         };
-        self.axes * (of(1) - of(0))
+        self.place.axes * (of(1) - of(0))
     }
 
     /// ∂d by increments of one of both nodes, in the axes of its body.
@@ -247,9 +265,9 @@ impl TouchPoint {
         let sign = if side == 1 { 1.0 } else { -1.0 };
         let mut all = Matrix3x6::zeros();
         for row in 0..3 {
-            let axis = self.axes.row(row).transpose();
+            let axis = self.place.axes.row(row).transpose();
             all.fixed_view_mut::<1, 3>(row, 0).copy_from(&(sign * axis.transpose() * rotation));
-            let moment = self.arms[side].cross(&axis);
+            let moment = self.place.arms[side].cross(&axis);
             all.fixed_view_mut::<1, 3>(row, 3).copy_from(&(sign * moment.transpose() * rotation));
         }
         all
@@ -258,8 +276,8 @@ impl TouchPoint {
     /// Force and moment about its node at the start on one of both parts, in the axes of its body.
     pub fn wrench(&self, side: usize, state: &TouchState, at: &Kinematics) -> [Vector3; 2] {
         let sign = if side == 1 { 1.0 } else { -1.0 };
-        let force = sign * self.axes.tr_mul(&state.force);
-        let moment = self.arms[side].cross(&force);
+        let force = sign * self.place.axes.tr_mul(&state.force);
+        let moment = self.place.arms[side].cross(&force);
         let rotation = &at.nodes[self.nodes[side]].frame.rotation;
         [rotation.apply_inverse(&force), rotation.apply_inverse(&moment)]
     }
@@ -275,7 +293,7 @@ impl TouchPoint {
             let closing = bias * self.size - displacement;
             return if closing > 0.0 { [closing / yielding, 1.0 / yielding] } else { [0.0; 2] };
         }
-        let depth = -self.gap - displacement;
+        let depth = -self.place.gap - displacement;
         if depth <= 0.0 {
             return [0.0; 2];
         }
@@ -323,7 +341,7 @@ impl TouchPoint {
 
     /// Whether both parts touch at a state.
     fn is_touching(&self, state: &TouchState) -> bool {
-        state.force.z > 0.0 || self.near_rigid.is_none() && self.gap + state.displacement.z < 0.0
+        state.force.z > 0.0 || self.near_rigid.is_none() && self.place.gap + state.displacement.z < 0.0
     }
 
     /// The touch at the end of the step, if both parts touch then.
@@ -332,24 +350,20 @@ impl TouchPoint {
             return None;
         }
         let sign = if self.is_reversed { -1.0 } else { 1.0 };
-        let (d, gap) = (&state.displacement, self.gap + state.displacement.z);
+        let (d, gap) = (&state.displacement, self.place.gap + state.displacement.z);
         let has_friction = self.law.friction.is_some();
-        let bristle = match (has_friction, state.slips) {
-            (false, _) => Vector3::zeros(),
-            (true, false) => Vector3::new(self.bristle[0] + d.x, self.bristle[1] + d.y, 0.0),
-            (true, true) => Vector3::new(-state.force.x, -state.force.y, 0.0) / self.stiffness,
-        };
-        let tangential = Vector3::new(state.force.x, state.force.y, 0.0);
+        let bristle = self.bristle_at(state).push(0.0);
+        let tangential = state.force.xy().push(0.0);
         let elastic = if self.near_rigid.is_none() { self.law.compliance.energy(-gap) } else { 0.0 };
         Some(Touch {
             key: self.key,
             gap,
-            deepest: self.deepest,
-            point: self.point.into(),
-            force: (sign * self.axes.tr_mul(&state.force)).into(),
-            friction: (sign * self.axes.tr_mul(&tangential)).into(),
+            deepest: self.place.deepest,
+            point: self.place.point.into(),
+            force: (sign * self.place.axes.tr_mul(&state.force)).into(),
+            friction: (sign * self.place.axes.tr_mul(&tangential)).into(),
             normal: state.force.z,
-            bristle: self.axes.tr_mul(&bristle).into(),
+            bristle: self.place.axes.tr_mul(&bristle).into(),
             stiffness: self.stiffness,
             slip: d.xy().norm() / self.size,
             is_sliding: !has_friction || state.slips,
@@ -361,8 +375,7 @@ impl TouchPoint {
 
 /// Two tangents and the normal, as rows.
 fn axes_of(normal: &Vector3) -> Matrix3 {
-    let aside = if normal.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
-    let first = normal.cross(&aside).normalize();
+    let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
     let second = normal.cross(&first);
     Matrix3::from_rows(&[first.transpose(), second.transpose(), normal.transpose()])
 }
