@@ -1,0 +1,83 @@
+//! Types of elements of Abaqus and CalculiX.
+
+use crate::mesh::MeshShape;
+
+/// What is done with elements of a type.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Treatment {
+    /// They are read.
+    Read(MeshShape),
+    /// They are read, and a note states as what.
+    ReadAs(MeshShape, &'static str),
+    /// They have no shape, such as springs, and are left out.
+    LeaveOut,
+    /// They cannot be read; with a remedy.
+    Reject(&'static str),
+}
+
+const TRIANGLES: [&str; 5] = ["S3", "S3R", "S3RS", "STRI3", "M3D3"];
+const QUADRILATERALS: [&str; 7] = ["S4", "S4R", "S4RS", "S4RSW", "S4R5", "M3D4", "M3D4R"];
+const TETRAHEDRA: [&str; 2] = ["C3D4", "C3D4H"];
+const TETRAHEDRA_10: [&str; 7] = ["C3D10", "C3D10H", "C3D10M", "C3D10MH", "C3D10HS", "C3D10I", "C3D10T"];
+const HEXAHEDRA: [&str; 6] = ["C3D8", "C3D8R", "C3D8I", "C3D8H", "C3D8RH", "C3D8IH"];
+const HEXAHEDRA_20: [&str; 4] = ["C3D20", "C3D20R", "C3D20H", "C3D20RH"];
+const LINES: [&str; 9] = ["T3D2", "T3D2H", "B31", "B31R", "B31H", "B31OS", "B31OSH", "B33", "B33H"];
+/// Flat, rigid and surface elements: meshers such as Gmsh write surfaces as these.
+const OTHER_TRIANGLES: [&str; 4] = ["CPS3", "CPE3", "R3D3", "SFM3D3"];
+const OTHER_QUADRILATERALS: [&str; 9] =
+    ["CPS4", "CPS4R", "CPS4I", "CPE4", "CPE4R", "CPE4I", "R3D4", "SFM3D4", "SFM3D4R"];
+/// Beginnings of the names of types without a shape.
+const WITHOUT_SHAPE: [&str; 8] = ["MASS", "ROTARYI", "SPRING", "DASHPOT", "CONN", "GAP", "DCOUP", "HEATCAP"];
+const OF_SECOND_ORDER: [&str; 12] =
+    ["STRI65", "S6", "S8", "S8R", "S8R5", "S9R5", "M3D6", "M3D8", "M3D8R", "CPS6", "CPS8", "CPS8R"];
+
+/// What is done with a type, in upper case.
+pub(crate) fn treatment(name: &str) -> Treatment {
+    use Treatment::{LeaveOut, Read, ReadAs, Reject};
+    let read: [(&[&str], MeshShape); 7] = [
+        (&TRIANGLES, MeshShape::Triangle3),
+        (&QUADRILATERALS, MeshShape::Quadrilateral4),
+        (&TETRAHEDRA, MeshShape::Tetrahedron4),
+        (&TETRAHEDRA_10, MeshShape::Tetrahedron10),
+        (&HEXAHEDRA, MeshShape::Hexahedron8),
+        (&HEXAHEDRA_20, MeshShape::Hexahedron20),
+        (&LINES, MeshShape::Line2),
+    ];
+    if let Some((_, shape)) = read.iter().find(|(names, _)| names.contains(&name)) {
+        return Read(*shape);
+    }
+    if OTHER_TRIANGLES.contains(&name) {
+        return ReadAs(MeshShape::Triangle3, "triangles of a surface");
+    }
+    if OTHER_QUADRILATERALS.contains(&name) {
+        return ReadAs(MeshShape::Quadrilateral4, "quadrilaterals of a surface");
+    }
+    if WITHOUT_SHAPE.iter().any(|start| name.starts_with(start)) {
+        return LeaveOut;
+    }
+    if OF_SECOND_ORDER.contains(&name) {
+        // Its corners alone would be another, stiffer model of the same surface.
+        return Reject("it has nodes on its sides: mesh with S3 and S4 instead");
+    }
+    if name.starts_with("C3D") {
+        return Reject("mesh with C3D4, C3D10, C3D8 or C3D20 instead");
+    }
+    Reject("remove these elements, or mesh with S3, S4, C3D4, C3D10, C3D8 or C3D20")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_type_has_a_treatment() {
+        assert_eq!(treatment("S4R"), Treatment::Read(MeshShape::Quadrilateral4));
+        assert_eq!(treatment("C3D10"), Treatment::Read(MeshShape::Tetrahedron10));
+        assert_eq!(treatment("B31"), Treatment::Read(MeshShape::Line2));
+        assert_eq!(treatment("SPRINGA"), Treatment::LeaveOut);
+        assert!(matches!(treatment("CPS3"), Treatment::ReadAs(MeshShape::Triangle3, _)));
+        for name in ["S8R", "STRI65", "C3D6", "U1", ""] {
+            assert!(matches!(treatment(name), Treatment::Reject(_)), "{name}");
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Division of triangles into quadrilaterals.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crate::mesh::{Mesh, MeshElement, MeshShape};
+use crate::vectors::mean;
+
+impl Mesh {
+    /// Divides every triangle into three quadrilaterals, from its centroid to the middles of its sides. If there is
+    /// one, quadrilaterals are divided into four and lines into two, so that neighbours still share their nodes; otherwise
+    /// the mesh remains as it is. Solids are left out with a note.
+    ///
+    /// Parts of an element are in its sets. A new node is in those sets of nodes that contain all ends of its edge, or
+    /// all corners of its element. The first part of an element keeps its number; others have numbers above all others.
+    pub fn divided_into_quadrilaterals(&self) -> Mesh {
+        if self.elements.iter().all(|element| element.shape != MeshShape::Triangle3) {
+            return self.clone();
+        }
+        let mut division = Division::new(self);
+        for element in &self.elements {
+            division.divide(element);
+        }
+        let Division { mut mesh, children, .. } = division;
+        let solids = children.iter().filter(|own| own.is_empty()).count();
+        if solids > 0 {
+            mesh.notes.push(format!("{solids} solid elements are left out when triangles are divided"));
+        }
+        for (name, set) in &self.element_sets {
+            let parts = set.iter().flat_map(|&element| children[element].clone());
+            mesh.element_sets.insert(name.clone(), parts.collect());
+        }
+        mesh
+    }
+}
+
+struct Division<'a> {
+    /// The result.
+    mesh: Mesh,
+    /// Names and indices of the sets of nodes.
+    names: Vec<&'a str>,
+    /// Indices of the sets of each node of the original, ascending.
+    sets: Vec<Vec<usize>>,
+    /// The node in the middle of an edge.
+    middles: HashMap<[usize; 2], usize>,
+    /// Parts of each element.
+    children: Vec<std::ops::Range<usize>>,
+    next_node: u64,
+    next_element: u64,
+}
+
+impl<'a> Division<'a> {
+    fn new(original: &'a Mesh) -> Self {
+        let mut sets = vec![Vec::new(); original.positions.len()];
+        for (index, set) in original.node_sets.values().enumerate() {
+            for &node in set {
+                sets[node].push(index);
+            }
+        }
+        let mesh = Mesh { elements: Vec::new(), element_sets: BTreeMap::new(), ..original.clone() };
+        let numbers = original.elements.iter().map(|element| element.number);
+        Self {
+            mesh,
+            names: original.node_sets.keys().map(String::as_str).collect(),
+            sets,
+            middles: HashMap::new(),
+            children: Vec::new(),
+            next_node: original.node_numbers.iter().max().map_or(1, |last| last.saturating_add(1)),
+            next_element: numbers.max().map_or(1, |last| last.saturating_add(1)),
+        }
+    }
+
+    fn divide(&mut self, element: &MeshElement) {
+        let start = self.mesh.elements.len();
+        let nodes = element.nodes.as_slice();
+        match element.shape {
+            MeshShape::Line2 => {
+                let middle = self.middle([nodes[0], nodes[1]]);
+                self.add(element, start, vec![nodes[0], middle]);
+                self.add(element, start, vec![middle, nodes[1]]);
+            }
+            MeshShape::Triangle3 | MeshShape::Quadrilateral4 => {
+                let count = nodes.len();
+                let middles: Vec<usize> =
+                    (0..count).map(|side| self.middle([nodes[side], nodes[(side + 1) % count]])).collect();
+                let centre = self.node_between(nodes);
+                for corner in 0..count {
+                    let before = middles[(corner + count - 1) % count];
+                    self.add(element, start, vec![nodes[corner], middles[corner], centre, before]);
+                }
+            }
+            _ => {}
+        }
+        self.children.push(start..self.mesh.elements.len());
+    }
+
+    /// Adds a part of an element whose first part has the index `start`.
+    fn add(&mut self, element: &MeshElement, start: usize, nodes: Vec<usize>) {
+        let mut number = element.number;
+        if self.mesh.elements.len() > start {
+            number = self.next_element;
+            self.next_element = number.saturating_add(1);
+        }
+        let shape = if nodes.len() == 2 { MeshShape::Line2 } else { MeshShape::Quadrilateral4 };
+        self.mesh.elements.push(MeshElement { number, shape, nodes });
+    }
+
+    fn middle(&mut self, [from, to]: [usize; 2]) -> usize {
+        let edge = [from.min(to), from.max(to)];
+        if let Some(&known) = self.middles.get(&edge) {
+            return known;
+        }
+        let middle = self.node_between(&edge);
+        self.middles.insert(edge, middle);
+        middle
+    }
+
+    /// A new node in the mean position of nodes, in the sets that contain all of them.
+    fn node_between(&mut self, nodes: &[usize]) -> usize {
+        let index = self.mesh.positions.len();
+        self.mesh.positions.push(mean(nodes.iter().map(|&node| self.mesh.positions[node])));
+        self.mesh.node_numbers.push(self.next_node);
+        self.next_node = self.next_node.saturating_add(1);
+        let [first, others @ ..] = nodes else { return index };
+        for set in &self.sets[*first] {
+            if others.iter().all(|&node| self.sets[node].binary_search(set).is_ok())
+                && let Some(members) = self.mesh.node_sets.get_mut(self.names[*set])
+            {
+                members.push(index);
+            }
+        }
+        index
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edges::{edges, shared};
+    use crate::{gmsh, obj};
+
+    /// Number of nodes less edges plus elements of a surface.
+    fn euler_characteristic(mesh: &Mesh) -> i64 {
+        let count = |length: usize| i64::try_from(length).expect("small");
+        let surface = mesh.part(None, MeshShape::is_surface).expect("valid");
+        let edge_count = shared(&edges(&surface)).count();
+        count(surface.positions.len()) - count(edge_count) + count(surface.elements.len())
+    }
+
+    #[test]
+    fn area_topology_and_sets_are_kept() {
+        let mesh = gmsh::read(gmsh::tests::VERSION_2).expect("valid");
+        let divided = mesh.divided_into_quadrilaterals();
+        assert!((divided.area() - mesh.area()).abs() < 1e-14);
+        assert_eq!(euler_characteristic(&divided), euler_characteristic(&mesh));
+        let mut numbers: Vec<u64> = divided.elements.iter().map(|element| element.number).collect();
+        assert_eq!(numbers[..4], [2, 7, 4, 8]);
+        numbers.sort_unstable();
+        numbers.dedup();
+        assert_eq!(numbers.len(), divided.elements.len());
+        assert_eq!(divided.element_sets["plate"], [2, 3, 4, 5, 6, 7, 8]);
+        assert_eq!(divided.element_sets["left edge"], [0, 1]);
+        let left = &divided.node_sets["left edge"];
+        assert_eq!(left[..2], [0, 3]);
+        assert_eq!(divided.positions[left[2]], [0.0, 0.5, 0.0]);
+        assert_eq!(left.len(), 3);
+        // All nodes of the original were in it.
+        assert_eq!(divided.node_sets["plate"].len(), divided.positions.len());
+        assert_eq!(divided.divided_into_quadrilaterals(), divided);
+    }
+
+    #[test]
+    fn a_closed_surface_remains_closed_without_faults() {
+        let text =
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 1\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+        let mesh = obj::read(text).expect("valid");
+        let divided = mesh.divided_into_quadrilaterals();
+        assert_eq!(divided.elements.len(), 4 + 4 * 3);
+        assert_eq!([euler_characteristic(&mesh), euler_characteristic(&divided)], [2, 2]);
+        assert!(divided.boundary().is_empty());
+        assert!(divided.surface_faults().is_empty(), "{:?}", divided.surface_faults());
+        assert!((divided.area() - mesh.area()).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,292 @@
+//! Search for faults of a surface mesh.
+
+use std::collections::HashMap;
+
+use crate::edges::{Edge, edges, shared, sides};
+use crate::fault::{MeshFault, MeshFaultKind};
+use crate::mesh::{Mesh, MeshElement, MeshShape};
+use crate::node_tree::{NodeTree, along};
+use crate::vectors::{cross, difference, dot, length, mean};
+
+/// Distance of nodes at the same position, relative to the size of the mesh.
+const SAME_POSITION: f64 = 1e-9;
+/// Distance of a hanging node from an edge, relative to the length of the edge. Files often have seven digits.
+const ON_EDGE: f64 = 1e-6;
+/// Area of an element without one, relative to the square of its longest side.
+const NO_AREA: f64 = 1e-9;
+/// Sine of an angle that differs from 180 degrees by less than what a file can state.
+const STRAIGHT: f64 = 1e-6;
+/// Largest length by width without a warning.
+const SLENDER: f64 = 20.0;
+/// Largest warp without a warning, in degrees.
+const WARPED: f64 = 15.0;
+
+impl Mesh {
+    /// Faults of the triangles and quadrilaterals, errors first. Other elements only count as users of nodes.
+    pub fn surface_faults(&self) -> Vec<MeshFault> {
+        let mut faults = Vec::new();
+        self.faults_of_elements(&mut faults);
+        let edges = edges(self);
+        self.faults_of_edges(&edges, &mut faults);
+        self.faults_of_boundaries(&edges, &mut faults);
+        self.unused_nodes(&mut faults);
+        faults.sort_by_key(MeshFault::severity);
+        faults
+    }
+
+    fn fault(&self, kind: MeshFaultKind, elements: &[usize], nodes: &[usize]) -> MeshFault {
+        let corners = elements.iter().flat_map(|&element| self.elements[element].nodes.iter());
+        let corners: Vec<usize> = if nodes.is_empty() { corners.copied().collect() } else { nodes.to_vec() };
+        MeshFault {
+            kind,
+            elements: elements.iter().map(|&element| self.elements[element].number).collect(),
+            nodes: nodes.iter().map(|&node| self.node_numbers[node]).collect(),
+            position: mean(corners.iter().map(|&node| self.positions[node])),
+        }
+    }
+
+    fn faults_of_elements(&self, faults: &mut Vec<MeshFault>) {
+        let mut known: HashMap<Vec<usize>, usize> = HashMap::new();
+        for (index, element) in self.elements.iter().enumerate() {
+            if !element.shape.is_surface() {
+                continue;
+            }
+            let mut ascending = element.nodes.clone();
+            ascending.sort_unstable();
+            if let Some(pair) = ascending.windows(2).find(|pair| pair[0] == pair[1]) {
+                faults.push(self.fault(MeshFaultKind::RepeatedNode, &[index], &pair[..1]));
+                continue;
+            }
+            let first = *known.entry(ascending).or_insert(index);
+            if first != index {
+                faults.push(self.fault(MeshFaultKind::SameElement, &[first, index], &[]));
+            }
+            faults.extend(
+                self.faults_of_shape(element).map(|(kind, nodes)| self.fault(kind, &[index], &nodes)),
+            );
+        }
+    }
+
+    /// Kinds of faults of the shape of an element, with the nodes concerned.
+    fn faults_of_shape(&self, element: &MeshElement) -> impl Iterator<Item = (MeshFaultKind, Vec<usize>)> {
+        let lengths: Vec<f64> = sides(element)
+            .map(|[from, to]| length(difference(self.positions[to], self.positions[from])))
+            .collect();
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        let normal = self.area_vector(element);
+        let area = length(normal);
+        if area <= NO_AREA * longest * longest {
+            return vec![(MeshFaultKind::ZeroArea, Vec::new())].into_iter();
+        }
+        let mut found = Vec::new();
+        // Of an equilateral triangle length by height is 2/√3.
+        let is_triangle = element.shape == MeshShape::Triangle3;
+        let of_area = longest * longest / area * if is_triangle { 0.75_f64.sqrt() / 2.0 } else { 1.0 };
+        let ratio = if is_triangle { of_area } else { of_area.max(longest / shortest) };
+        if ratio > SLENDER {
+            found.push((MeshFaultKind::AspectRatio { ratio }, Vec::new()));
+        }
+        if let &[a, b, c, d] = element.nodes.as_slice() {
+            let corners = [[d, a, b], [a, b, c], [b, c, d], [c, d, a]];
+            let normals = corners.map(|corner| self.normal(corner));
+            let concave = (0..4).find(|&corner| {
+                let [before, after] = [lengths[(corner + 3) % 4], lengths[corner]];
+                dot(normals[corner], normal) <= STRAIGHT * before * after * area
+            });
+            if let Some(corner) = concave {
+                found.push((MeshFaultKind::NotConvex, vec![corners[corner][1]]));
+            } else {
+                // Corners opposite to each other are the triangles beside a diagonal.
+                let warps = [0, 1].map(|corner| angle(normals[corner], normals[corner + 2]));
+                let degrees = warps[0].max(warps[1]).to_degrees();
+                if degrees > WARPED {
+                    found.push((MeshFaultKind::Warp { degrees }, Vec::new()));
+                }
+            }
+        }
+        found.into_iter()
+    }
+
+    /// Normal of a triangle, as long as twice its area.
+    fn normal(&self, [a, b, c]: [usize; 3]) -> [f64; 3] {
+        let [a, b, c] = [a, b, c].map(|node| self.positions[node]);
+        cross(difference(b, a), difference(c, b))
+    }
+
+    fn faults_of_edges(&self, edges: &[Edge], faults: &mut Vec<MeshFault>) {
+        for own in shared(edges) {
+            let elements: Vec<usize> = own.iter().map(|edge| edge.element).collect();
+            let kind = match own {
+                [first, second] if first.is_forward == second.is_forward => {
+                    MeshFaultKind::OppositeOrientation
+                }
+                [_, _, _, ..] => MeshFaultKind::Branch,
+                _ => continue,
+            };
+            faults.push(self.fault(kind, &elements, &own[0].nodes));
+        }
+    }
+
+    fn faults_of_boundaries(&self, edges: &[Edge], faults: &mut Vec<MeshFault>) {
+        let boundary: Vec<&Edge> = shared(edges).filter(|own| own.len() == 1).map(|own| &own[0]).collect();
+        // An element at each node of the boundary.
+        let mut element_of: HashMap<usize, usize> = HashMap::new();
+        for edge in &boundary {
+            for node in edge.nodes {
+                element_of.entry(node).or_insert(edge.element);
+            }
+        }
+        let mut nodes: Vec<usize> = element_of.keys().copied().collect();
+        nodes.sort_unstable();
+        let tree = NodeTree::new(&self.positions, nodes.clone());
+        let tolerance = SAME_POSITION * self.size();
+        for &node in &nodes {
+            let position = self.positions[node];
+            tree.near_line([position; 2], tolerance, |other| {
+                let is_same =
+                    other < node && length(difference(self.positions[other], position)) <= tolerance;
+                if is_same {
+                    let elements = [element_of[&other], element_of[&node]];
+                    let elements = if elements[0] == elements[1] { &elements[..1] } else { &elements };
+                    faults.push(self.fault(MeshFaultKind::TornMesh, elements, &[other, node]));
+                }
+                is_same
+            });
+        }
+        for edge in boundary {
+            let ends = edge.nodes.map(|node| self.positions[node]);
+            let full = length(difference(ends[1], ends[0]));
+            let tolerance = ON_EDGE * full;
+            if full == 0.0 {
+                continue;
+            }
+            tree.near_line(ends, tolerance, |node| {
+                let (parameter, distance) = along(self.positions[node], ends);
+                let is_within = distance <= tolerance && parameter > ON_EDGE && parameter < 1.0 - ON_EDGE;
+                if is_within && !self.elements[edge.element].nodes.contains(&node) {
+                    let elements = [edge.element, element_of[&node]];
+                    faults.push(self.fault(MeshFaultKind::HangingNode, &elements, &[node]));
+                }
+                false
+            });
+        }
+    }
+
+    fn unused_nodes(&self, faults: &mut Vec<MeshFault>) {
+        let mut is_used = vec![false; self.positions.len()];
+        for &node in self.elements.iter().flat_map(|element| &element.nodes) {
+            is_used[node] = true;
+        }
+        let unused = (0..is_used.len()).filter(|&node| !is_used[node]);
+        faults.extend(unused.map(|node| self.fault(MeshFaultKind::UnusedNode, &[], &[node])));
+    }
+}
+
+/// Angle between two vectors in radians.
+fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
+    length(cross(a, b)).atan2(dot(a, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fault::Severity;
+    use crate::obj;
+
+    /// Faults of a mesh: kind, elements and nodes.
+    fn faults(text: &str) -> Vec<(MeshFaultKind, Vec<u64>, Vec<u64>)> {
+        let faults = obj::read(text).expect("valid").surface_faults();
+        faults.into_iter().map(|fault| (fault.kind, fault.elements, fault.nodes)).collect()
+    }
+
+    const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
+
+    #[test]
+    fn a_sound_mesh_has_no_faults() {
+        assert_eq!(faults(&format!("{SQUARE}f 1 2 3 4\nf 2 5 6\nf 2 6 3\n")), []);
+    }
+
+    #[test]
+    fn faults_of_single_elements() {
+        use MeshFaultKind::{NotConvex, RepeatedNode, ZeroArea};
+        let one = |vertices: &str, face: &str| faults(&format!("{vertices}f {face}\n"));
+        let four = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+        assert_eq!(
+            one(four, "1 2 3 2"),
+            [(RepeatedNode, vec![1], vec![2]), (MeshFaultKind::UnusedNode, vec![], vec![4])]
+        );
+        // A side is crossed.
+        let crossing = "v 0 0 0\nv 1 0 0\nv .1 1 0\nv .9 .9 0\n";
+        assert_eq!(one(crossing, "1 2 3 4")[0].0, NotConvex);
+        assert_eq!(one("v 0 0 0\nv 1 0 0\nv .3 .3 0\nv 0 1 0\n", "1 2 3 4"), [(NotConvex, vec![1], vec![3])]);
+        // A corner of 180 degrees.
+        assert_eq!(one("v 0 0 0\nv 1 0 0\nv .5 .5 0\nv 0 1 0\n", "4 1 2 3"), [(NotConvex, vec![1], vec![3])]);
+        assert_eq!(one("v 0 0 0\nv 1 1 1\nv 2 2 2\n", "1 2 3"), [(ZeroArea, vec![1], vec![])]);
+        assert_eq!(one("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0\n", "1 2 3 4")[0].0, NotConvex);
+    }
+
+    #[test]
+    fn slender_and_warped_elements_are_warned_of() {
+        let kinds = |text: &str| faults(text).into_iter().map(|fault| fault.0).collect::<Vec<_>>();
+        let rectangle =
+            |length: f64| format!("v 0 0 0\nv {length} 0 0\nv {length} 1 0\nv 0 1 0\nf 1 2 3 4\n");
+        assert_eq!(kinds(&rectangle(19.9)), []);
+        assert_eq!(kinds(&rectangle(20.1)), [MeshFaultKind::AspectRatio { ratio: 20.1 }]);
+        // A trapezium with a short side.
+        let trapezium = "v 0 0 0\nv 30 0 0\nv 15.5 10 0\nv 14.5 10 0\nf 1 2 3 4\n";
+        assert_eq!(kinds(trapezium), [MeshFaultKind::AspectRatio { ratio: 30.0 }]);
+        let triangle = |height: f64| format!("v 0 0 0\nv 1 0 0\nv .5 {height} 0\nf 1 2 3\n");
+        assert_eq!(kinds(&triangle(0.75_f64.sqrt() / 19.9)), []);
+        assert!(matches!(kinds(&triangle(0.75_f64.sqrt() / 20.1))[..], [MeshFaultKind::AspectRatio { .. }]));
+        // Two triangles of a square, folded by an angle about its diagonal.
+        let folded = |degrees: f64| {
+            let (half, radians) = (0.5_f64.sqrt(), degrees.to_radians());
+            let [y, z] = [half * radians.cos(), half * radians.sin()];
+            format!("v -{half} 0 0\nv 0 -{half} 0\nv {half} 0 0\nv 0 {y} {z}\nf 1 2 3 4\n")
+        };
+        assert_eq!(kinds(&folded(14.9)), []);
+        let [MeshFaultKind::Warp { degrees }] = kinds(&folded(15.1))[..] else { panic!("must be warped") };
+        assert!((degrees - 15.1).abs() < 0.2, "{degrees}");
+    }
+
+    #[test]
+    fn faults_between_elements() {
+        use MeshFaultKind::{Branch, OppositeOrientation, SameElement, UnusedNode};
+        let fault = (OppositeOrientation, vec![1, 2], vec![2, 3]);
+        assert_eq!(faults(&format!("{SQUARE}f 1 2 3 4\nf 2 3 6 5\n")), [fault]);
+        let branch = faults(&format!("{SQUARE}v 1 0 1\nf 1 2 3 4\nf 2 5 6 3\nf 2 3 7\n"));
+        assert_eq!(branch, [(Branch, vec![1, 2, 3], vec![2, 3])]);
+        assert_eq!(branch[0].0.severity(), Severity::Note);
+        let same = faults("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nf 2 1 3\n");
+        assert_eq!(same, [(SameElement, vec![1, 2], vec![]), (UnusedNode, vec![], vec![4])]);
+        let message = obj::read(&format!("{SQUARE}f 1 2 3 4\nf 2 3 6 5\n")).expect("valid").surface_faults();
+        let expected =
+            "neighbours have opposite normals, elements 1 2, nodes 2 3, at (1, 0.5, 0); orient the surface";
+        assert_eq!(message[0].to_string(), expected);
+    }
+
+    #[test]
+    fn torn_meshes_and_hanging_nodes_are_found() {
+        use MeshFaultKind::{HangingNode, TornMesh};
+        let torn = faults(&format!("{SQUARE}v 1 0 1e-10\nv 1 1 0\nf 1 2 3 4\nf 7 5 6 8\n"));
+        assert_eq!(torn, [(TornMesh, vec![1, 2], vec![2, 7]), (TornMesh, vec![1, 2], vec![3, 8])]);
+        // Two quadrilaterals beside one.
+        let vertices = format!("{SQUARE}v 1 .5 0\nv 2 .5 0\n");
+        let hanging = faults(&format!("{vertices}f 1 2 3 4\nf 2 5 8 7\nf 7 8 6 3\n"));
+        assert_eq!(hanging, [(HangingNode, vec![1, 2], vec![7])]);
+        // Shifted a little, it lies within no edge.
+        let beside = vertices.replace("v 1 .5 0", "v 1.001 .5 0");
+        assert_eq!(faults(&format!("{beside}f 1 2 3 4\nf 2 5 8 7\nf 7 8 6 3\n")), []);
+    }
+
+    #[test]
+    fn the_search_takes_no_time_by_the_square_of_the_nodes() {
+        // A comb of 40000 triangles, each with nodes of its own, that touch at one node each.
+        let triangle = |k: usize| format!("v {k} 0 0\nv {} 0 0\nv {k} 1 0\nf -3 -2 -1\n", k + 1);
+        let text: Vec<String> = (0..40_000).map(triangle).collect();
+        let faults = faults(&text.concat());
+        assert_eq!(faults.len(), 39_999);
+        assert!(faults.iter().all(|fault| fault.0 == MeshFaultKind::TornMesh));
+    }
+}

@@ -1,0 +1,460 @@
+//! Files of Gmsh (`msh`), in ASCII, of the versions 2 and 4.1.
+//!
+//! A physical group becomes a set of elements and a set of the nodes that these touch, both with the name of the group.
+//! One without a name is called after its dimension and tag, such as `surface 3`.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crate::draft::Draft;
+use crate::error::MeshError;
+use crate::fields::{Lines, label, quote, real, whole};
+use crate::gmsh_types::{ElementType, element_type, in_order_of_abaqus};
+use crate::mesh::Mesh;
+
+const AS_ASCII: &str =
+    "save it in Gmsh as ASCII of version 2 or 4.1 (Mesh.Binary = 0, Mesh.MshFileVersion = 4.1)";
+const LINEAR: &str = "mesh with Mesh.ElementOrder = 1, or without prisms and pyramids";
+const AGAIN: &str = "the file is damaged or incomplete: save it again";
+
+/// Dimension and tag, of an entity or of a physical group.
+type Tag = (u8, i64);
+
+#[derive(Clone, Copy, PartialEq)]
+enum Version {
+    Two,
+    Four,
+}
+
+#[derive(Default)]
+struct Reader<'a> {
+    lines: Option<Lines<'a>>,
+    version: Option<Version>,
+    draft: Draft,
+    /// Names of physical groups.
+    names: BTreeMap<Tag, String>,
+    /// Tags of the physical groups of each entity. In version 2 every group is an entity.
+    groups: HashMap<Tag, Vec<i64>>,
+    /// Entity and index of each element.
+    members: Vec<(Tag, usize)>,
+    /// Elements of version 2 by their nodes: it saves an element once for each of its groups.
+    known: HashMap<Vec<u64>, usize>,
+    /// Entity, line and nodes of elements that are not read, such as points.
+    touched: Vec<(Tag, usize, Vec<u64>)>,
+    /// Types of elements that are not read: the first line, number, and dimension.
+    left_out: BTreeMap<&'static str, (usize, usize, u8)>,
+    /// Names of other sections, with their lines.
+    other_sections: BTreeMap<&'a str, usize>,
+}
+
+pub(crate) fn read(text: &str) -> Result<Mesh, MeshError> {
+    let mut reader = Reader { lines: Some(Lines::new(text)), ..Reader::default() };
+    reader.sections()?;
+    reader.finish()
+}
+
+impl<'a> Reader<'a> {
+    fn next_line(&mut self) -> Option<(usize, &'a str)> {
+        self.lines.as_mut()?.find(|(_, content)| !content.is_empty())
+    }
+
+    fn last_line(&self) -> usize {
+        self.lines.as_ref().map_or(0, |lines| lines.number)
+    }
+
+    /// Fields of the next line of a section.
+    fn record(&mut self, at_least: usize) -> Result<(usize, Vec<&'a str>), MeshError> {
+        let Some((line, content)) = self.next_line() else {
+            return Err(MeshError::at(self.last_line(), "the file ends within a section", AGAIN));
+        };
+        let fields: Vec<&str> = content.split_whitespace().collect();
+        if content.starts_with('$') || fields.len() < at_least {
+            let found = format!("{} instead of a line of at least {at_least} numbers", quote(content));
+            return Err(MeshError::at(line, found, AGAIN));
+        }
+        Ok((line, fields))
+    }
+
+    /// The first field of the next line, a number.
+    fn count(&mut self) -> Result<u64, MeshError> {
+        let (line, fields) = self.record(1)?;
+        whole(line, fields[0])
+    }
+
+    /// The end of a section.
+    fn end(&mut self, section: &str) -> Result<(), MeshError> {
+        match self.next_line() {
+            Some((_, content)) if content.strip_prefix("$End") == section.strip_prefix('$') => Ok(()),
+            Some((line, content)) => {
+                let found = format!("{} where {section} ends according to its counts", quote(content));
+                Err(MeshError::at(line, found, AGAIN))
+            }
+            None => Err(MeshError::at(self.last_line(), format!("{section} does not end"), AGAIN)),
+        }
+    }
+
+    fn sections(&mut self) -> Result<(), MeshError> {
+        while let Some((line, section)) = self.next_line() {
+            let Some(version) = self.version else {
+                if section == "$MeshFormat" {
+                    self.format()?;
+                    self.end(section)?;
+                    continue;
+                }
+                let found = format!("{} instead of $MeshFormat", quote(section));
+                return Err(MeshError::at(line, found, AS_ASCII));
+            };
+            match (section, version) {
+                ("$PhysicalNames", _) => self.physical_names()?,
+                ("$Entities", Version::Four) => self.entities()?,
+                ("$Nodes", Version::Two) => self.nodes_of_version_2()?,
+                ("$Nodes", Version::Four) => self.nodes_of_version_4()?,
+                ("$Elements", Version::Two) => self.elements_of_version_2()?,
+                ("$Elements", Version::Four) => self.elements_of_version_4()?,
+                ("$PartitionedEntities", _) => {
+                    let remedy = "remove the partition in Gmsh (Mesh, Unpartition), and save it again";
+                    return Err(MeshError::at(line, "the mesh is divided into partitions", remedy));
+                }
+                (other, _) if other.starts_with('$') && !other.starts_with("$End") => {
+                    self.other_sections.entry(other).or_insert(line);
+                    self.skip(line, other)?;
+                    continue;
+                }
+                (other, _) => {
+                    let found = format!("{} instead of the beginning of a section", quote(other));
+                    return Err(MeshError::at(line, found, AGAIN));
+                }
+            }
+            self.end(section)?;
+        }
+        Ok(())
+    }
+
+    fn skip(&mut self, line: usize, section: &str) -> Result<(), MeshError> {
+        while let Some((_, content)) = self.next_line() {
+            if content.strip_prefix("$End") == section.strip_prefix('$') {
+                return Ok(());
+            }
+        }
+        Err(MeshError::at(line, format!("{} does not end", quote(section)), AGAIN))
+    }
+
+    fn format(&mut self) -> Result<(), MeshError> {
+        let (line, fields) = self.record(2)?;
+        self.version = match fields[0] {
+            "4.1" => Some(Version::Four),
+            other if other == "2" || other.starts_with("2.") => Some(Version::Two),
+            other => {
+                let found = format!("version {} of the format", quote(other));
+                return Err(MeshError::at(line, found, AS_ASCII));
+            }
+        };
+        if fields[1] == "0" {
+            return Ok(());
+        }
+        Err(MeshError::at(line, "the file is binary", AS_ASCII))
+    }
+
+    fn physical_names(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.count()? {
+            let (line, fields) = self.record(3)?;
+            let group = (whole(line, fields[0])?, whole(line, fields[1])?);
+            // Names may contain blanks.
+            let name = fields[2..].join(" ").trim_matches('"').to_owned();
+            self.names.insert(group, name);
+        }
+        Ok(())
+    }
+
+    fn entities(&mut self) -> Result<(), MeshError> {
+        let (line, fields) = self.record(4)?;
+        for dimension in 0..4_u8 {
+            // A point has a position, others a box.
+            let first = if dimension == 0 { 4 } else { 7 };
+            for _ in 0..whole::<u64>(line, fields[usize::from(dimension)])? {
+                let (line, fields) = self.record(first + 1)?;
+                let tag = whole(line, fields[0])?;
+                let count: usize = whole(line, fields[first])?;
+                let tags = fields[first + 1..].iter().take(count);
+                let tags: Result<Vec<i64>, MeshError> = tags.map(|field| whole(line, field)).collect();
+                let tags = tags?;
+                if tags.len() < count {
+                    let found = format!("{count} physical groups of an entity, but {} tags", tags.len());
+                    return Err(MeshError::at(line, found, AGAIN));
+                }
+                self.groups.insert((dimension, tag), tags);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_node(&mut self, line: usize, number: u64, fields: &[&str]) -> Result<(), MeshError> {
+        let position = [real(line, fields[0])?, real(line, fields[1])?, real(line, fields[2])?];
+        self.draft.add_node(line, number, position).map(|_| ())
+    }
+
+    fn nodes_of_version_2(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.count()? {
+            let (line, fields) = self.record(4)?;
+            self.add_node(line, label(line, fields[0])?, &fields[1..])?;
+        }
+        Ok(())
+    }
+
+    fn nodes_of_version_4(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.count()? {
+            let (line, fields) = self.record(4)?;
+            let mut numbers = Vec::new();
+            for _ in 0..whole::<u64>(line, fields[3])? {
+                let (line, fields) = self.record(1)?;
+                numbers.push(label(line, fields[0])?);
+            }
+            for number in numbers {
+                let (line, fields) = self.record(3)?;
+                self.add_node(line, number, &fields)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn known_type(line: usize, field: &str) -> Result<ElementType, MeshError> {
+        element_type(whole(line, field)?).ok_or_else(|| {
+            MeshError::at(line, format!("an element of the unknown type {}", quote(field)), LINEAR)
+        })
+    }
+
+    fn elements_of_version_2(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.count()? {
+            let (line, fields) = self.record(4)?;
+            let kind = Self::known_type(line, fields[1])?;
+            let tag_count: usize = whole(line, fields[2])?;
+            let start = tag_count.saturating_add(3).min(fields.len());
+            let group: i64 = if tag_count > 0 { whole(line, fields[3])? } else { 0 };
+            let entity = (kind.dimension, group);
+            if group != 0 {
+                self.groups.insert(entity, vec![group]);
+            }
+            self.add_element(line, entity, &kind, fields[0], &fields[start..])?;
+        }
+        Ok(())
+    }
+
+    fn elements_of_version_4(&mut self) -> Result<(), MeshError> {
+        for _ in 0..self.count()? {
+            let (line, fields) = self.record(4)?;
+            let entity = (whole(line, fields[0])?, whole(line, fields[1])?);
+            let kind = Self::known_type(line, fields[2])?;
+            for _ in 0..whole::<u64>(line, fields[3])? {
+                let (line, fields) = self.record(2)?;
+                self.add_element(line, entity, &kind, fields[0], &fields[1..])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn add_element(
+        &mut self,
+        line: usize,
+        entity: Tag,
+        kind: &ElementType,
+        number: &str,
+        nodes: &[&str],
+    ) -> Result<(), MeshError> {
+        let number = label(line, number)?;
+        let nodes: Result<Vec<u64>, MeshError> = nodes.iter().map(|field| label(line, field)).collect();
+        let nodes = nodes?;
+        if nodes.len() != kind.node_count {
+            let found = format!("a {} with {} nodes, it has {}", kind.name, nodes.len(), kind.node_count);
+            return Err(MeshError::at(line, found, AGAIN));
+        }
+        let Some(shape) = kind.shape else {
+            self.touched.push((entity, line, nodes));
+            if kind.dimension > 0 {
+                self.left_out.entry(kind.name).or_insert((line, 0, kind.dimension)).1 += 1;
+            }
+            return Ok(());
+        };
+        let nodes = in_order_of_abaqus(shape, &nodes);
+        let index = if let Some(&index) = self.known.get(&nodes) {
+            index
+        } else {
+            let index = self.draft.add_element(line, number, shape, nodes.clone())?;
+            if self.version == Some(Version::Two) {
+                self.known.insert(nodes, index);
+            }
+            index
+        };
+        self.members.push((entity, index));
+        Ok(())
+    }
+
+    /// Names of the sets of an entity.
+    fn set_names(&self, entity: Tag) -> Vec<String> {
+        let name = |&tag: &i64| {
+            // A negative tag states that the normal is opposite.
+            let group = (entity.0, tag.abs());
+            self.names.get(&group).cloned().unwrap_or_else(|| {
+                let kinds = ["point", "curve", "surface", "volume"];
+                format!("{} {}", kinds[usize::from(group.0).min(3)], group.1)
+            })
+        };
+        self.groups.get(&entity).map(|tags| tags.iter().map(name).collect()).unwrap_or_default()
+    }
+
+    fn finish(mut self) -> Result<Mesh, MeshError> {
+        let highest = self.draft.mesh.elements.iter().map(|element| element.shape.dimension()).max();
+        for (name, &(line, count, dimension)) in &self.left_out {
+            if highest.is_none_or(|highest| dimension >= highest) {
+                return Err(MeshError::at(line, format!("a {name}, which is not read"), LINEAR));
+            }
+            let note = format!("line {line}: a {name} is left out; its nodes are in the sets of nodes");
+            self.draft.mesh.notes.push(with_count(note, count));
+        }
+        for (section, line) in &self.other_sections {
+            let note = format!("line {line}: {} is not read", quote(section));
+            self.draft.mesh.notes.push(note);
+        }
+        let last_line = self.last_line();
+        self.draft.connect(last_line)?;
+        let (mut node_sets, mut element_sets) = (BTreeMap::new(), BTreeMap::new());
+        let mut names: HashMap<Tag, Vec<String>> = HashMap::new();
+        for &(entity, index) in &self.members {
+            let own = names.entry(entity).or_insert_with(|| self.set_names(entity));
+            for name in own {
+                member(&mut element_sets, name).push(index);
+                member(&mut node_sets, name).extend(&self.draft.mesh.elements[index].nodes);
+            }
+        }
+        for (entity, line, numbers) in &self.touched {
+            let own = names.entry(*entity).or_insert_with(|| self.set_names(*entity));
+            for name in own {
+                for &number in numbers {
+                    member(&mut node_sets, name).push(self.draft.node(*line, number)?);
+                }
+            }
+        }
+        for set in node_sets.values_mut().chain(element_sets.values_mut()) {
+            set.sort_unstable();
+            set.dedup();
+        }
+        self.draft.mesh.node_sets = node_sets;
+        self.draft.mesh.element_sets = element_sets;
+        Ok(self.draft.mesh)
+    }
+}
+
+/// The members of a set, which is made if there is none. No name is copied for one that exists.
+fn member<'a>(sets: &'a mut BTreeMap<String, Vec<usize>>, name: &str) -> &'a mut Vec<usize> {
+    if !sets.contains_key(name) {
+        sets.insert(name.to_owned(), Vec::new());
+    }
+    sets.entry(name.to_owned()).or_default()
+}
+
+fn with_count(note: String, count: usize) -> String {
+    if count > 1 { format!("{note} (and {} more)", count - 1) } else { note }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::mesh::MeshShape::{self, Line2, Quadrilateral4, Triangle3};
+
+    /// Triangle and quadrilateral, an edge in two groups, a point.
+    pub(crate) const VERSION_2: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n0 9 \"tip\"\n\
+        1 5 \"left edge\"\n2 7 \"plate\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n10 0 1 0\n\
+        11 2 0.5 0\n$EndNodes\n$Elements\n6\n1 15 2 9 1 11\n2 1 2 5 1 10 1\n3 1 2 6 1 10 1\n4 3 2 7 1 1 2 3 10\n\
+        5 2 2 7 1 2 11 3\n6 2 3 0 1 0 1 2 3\n$EndElements\n$NodeData\n1\n\"x\"\n$EndNodeData\n";
+
+    pub(crate) const VERSION_4: &str = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 5 \"left edge\"\n\
+        2 7 \"plate\"\n$EndPhysicalNames\n$Entities\n1 1 1 0\n4 2 0.5 0 1 9\n1 0 0 0 0 1 0 1 5 2 1 -2\n\
+        1 0 0 0 2 1 0 2 -7 8 1 1\n$EndEntities\n$Nodes\n2 5 1 11\n1 1 0 2\n1\n10\n0 0 0\n0 1 0\n2 1 0 3\n2\n3\n11\n\
+        1 0 0\n1 1 0\n2 .5 0\n$EndNodes\n$Elements\n4 4 1 5\n0 4 15 1\n1 11\n1 1 1 1\n2 10 1\n2 1 3 1\n4 1 2 3 10\n\
+        2 1 2 1\n5 2 11 3\n$EndElements\n";
+
+    fn message(text: &str) -> String {
+        read(text).expect_err("must be rejected").to_string()
+    }
+
+    #[test]
+    fn version_2_is_read_with_its_groups() {
+        let mesh = read(VERSION_2).expect("valid");
+        assert_eq!(mesh.node_numbers, [1, 2, 3, 10, 11]);
+        assert_eq!(mesh.positions[4], [2.0, 0.5, 0.0]);
+        let shapes: Vec<MeshShape> = mesh.elements.iter().map(|element| element.shape).collect();
+        // Element 3 is element 2 in a second group.
+        assert_eq!(shapes, [Line2, Quadrilateral4, Triangle3, Triangle3]);
+        assert_eq!(mesh.elements[1].nodes, [0, 1, 2, 3]);
+        assert_eq!(mesh.element_sets["plate"], [1, 2]);
+        assert_eq!(mesh.element_sets["left edge"], mesh.element_sets["curve 6"]);
+        assert_eq!(mesh.node_sets["left edge"], [0, 3]);
+        assert_eq!(mesh.node_sets["tip"], [4]);
+        assert_eq!(mesh.node_sets["plate"], [0, 1, 2, 3, 4]);
+        assert!(!mesh.element_sets.contains_key("tip") && !mesh.element_sets.contains_key("surface 0"));
+        assert_eq!(mesh.notes, ["line 27: `$NodeData` is not read"]);
+    }
+
+    #[test]
+    fn version_4_is_read_with_the_groups_of_its_entities() {
+        let (mesh, other) = (read(VERSION_4).expect("valid"), read(VERSION_2).expect("valid"));
+        assert_eq!(mesh.node_numbers, [1, 10, 2, 3, 11]);
+        assert!((mesh.area() - 1.5).abs() < 1e-15);
+        assert_eq!(mesh.element_sets["plate"], [1, 2]);
+        assert_eq!(mesh.element_sets["surface 8"], [1, 2]);
+        assert_eq!(mesh.node_sets["left edge"], [0, 1]);
+        assert_eq!(mesh.node_sets["point 9"], [4]);
+        assert_eq!(mesh.elements[1].number, other.elements[1].number);
+    }
+
+    #[test]
+    fn other_versions_and_binary_files_are_rejected_with_a_remedy() {
+        assert!(message("$MeshFormat\n4.1 1 8\n\u{1}").contains("binary; save it in Gmsh as ASCII"));
+        assert!(message("$MeshFormat\n4 0 8\n").contains("version `4` of the format; save it"));
+        assert!(message("(0 \"FLUENT\")").starts_with("line 1: `(0 \"FLUENT\")` instead of $MeshFormat"));
+    }
+
+    #[test]
+    fn faults_are_reported_with_their_lines() {
+        let cases = [
+            ("\n3 1 1 0", "\n3 1 x 0", "line 14: `x` is no finite number"),
+            ("5 2 2 7 1 2 11 3", "5 2 2 7 1 2 11", "line 24: a triangle with 2 nodes, it has 3"),
+            ("5 2 2 7 1 2 11 3", "5 2 2 7 1 2 12 3", "line 24: node 12 is not in the file"),
+            ("$Nodes\n5", "$Nodes\n6", "line 17: `$EndNodes` instead of a line"),
+            ("$Nodes\n5", "$Nodes\n4", "line 16: `11 2 0.5 0` where $Nodes ends"),
+            ("$Nodes\n5", "$Nodes\n999999999999", "line 17: `$EndNodes` instead of a line"),
+            ("6 2 3 0", "6 92 3 0", "line 25: an element of the unknown type `92`"),
+        ];
+        for (old, new, expected) in cases {
+            assert!(VERSION_2.contains(old), "{old}");
+            let found = message(&VERSION_2.replace(old, new));
+            assert!(found.starts_with(expected), "{found}");
+        }
+        let found = message(&VERSION_4.replace("\n2 1 0 3\n", "\n2 1 0 999999999999\n"));
+        assert!(found.starts_with("line 29: `$EndNodes` instead of a line"), "{found}");
+    }
+
+    #[test]
+    fn a_file_ends_only_after_a_section() {
+        let end = VERSION_4.rfind("$EndElements").expect("there");
+        for length in 0..end {
+            assert!(read(&VERSION_4[..length]).is_err(), "{length}");
+        }
+    }
+
+    /// Solids of second order are read; the surfaces around them give sets of nodes only.
+    #[test]
+    fn elements_of_second_order() {
+        let nodes: Vec<String> = (1..=10).map(|k| format!("{k} {k} {} 0\n", k * k)).collect();
+        let nodes = nodes.concat();
+        let start =
+            format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n{nodes}$EndNodes\n$Elements\n");
+        let solid = "1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n";
+        let face = "2 9 2 4 1 1 2 3 5 6 7\n";
+        let mesh = read(&format!("{start}2\n{solid}{face}$EndElements\n")).expect("valid");
+        assert_eq!(mesh.elements[0].nodes, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]);
+        assert_eq!(mesh.node_sets["surface 4"], [0, 1, 2, 4, 5, 6]);
+        assert!(mesh.notes[0].contains("triangle of 6 nodes is left out"), "{:?}", mesh.notes);
+        let line = "3 1 2 4 1 1 2\n";
+        let found = message(&format!("{start}2\n{line}{face}$EndElements\n"));
+        assert!(found.contains("a triangle of 6 nodes, which is not read; mesh with"), "{found}");
+    }
+}

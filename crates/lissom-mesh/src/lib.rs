@@ -1,0 +1,38 @@
+//! Finite-element meshes from the text of files: Gmsh (`msh`), Abaqus or CalculiX (`inp`) and Wavefront (`obj`), and a
+//! search for faults of surface meshes. Independent of mechanics; it opens no file.
+//!
+//! ```
+//! use lissom_mesh::{MeshShape, read};
+//!
+//! let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng plate\nf 1 2 3 4\n";
+//! let mesh = read(text, "obj").unwrap();
+//! assert_eq!(mesh.elements[0].shape, MeshShape::Quadrilateral4);
+//! assert_eq!(mesh.node_sets["plate"], [0, 1, 2, 3]);
+//! assert!(mesh.surface_faults().is_empty());
+//! ```
+
+mod abaqus;
+mod abaqus_sets;
+mod abaqus_types;
+mod boundary;
+mod division;
+mod draft;
+mod edges;
+mod error;
+mod fault;
+mod faults;
+mod fields;
+mod gmsh;
+mod gmsh_types;
+mod mesh;
+mod node_tree;
+mod obj;
+mod orientation;
+mod part;
+mod read;
+mod vectors;
+
+pub use error::MeshError;
+pub use fault::{MeshFault, MeshFaultKind, Severity};
+pub use mesh::{Mesh, MeshElement, MeshMaterial, MeshSection, MeshShape};
+pub use read::read;
