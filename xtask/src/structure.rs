@@ -395,19 +395,20 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 428;
+    const MAX_CONSTANTS: usize = 443;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
-    const MAX_LINES: [(&str, usize); 11] = [
-        ("lissom-motion", 3030),
+    const MAX_LINES: [(&str, usize); 12] = [
+        ("lissom-motion", 3040),
         ("lissom-solver", 7010),
-        ("lissom-mechanics", 34_090),
+        ("lissom-mechanics", 36_000),
         ("lissom-system", 5410),
-        ("lissom-core", 31_900),
+        ("lissom-core", 31_950),
         ("lissom-drawing", 1720),
-        ("lissom-model", 32_620),
-        ("lissom", 25_620),
-        ("lissom-cli", 4910),
+        ("lissom-mesh", 3170),
+        ("lissom-model", 34_300),
+        ("lissom", 26_530),
+        ("lissom-cli", 4970),
         ("lissom-fmi", 660),
         ("lissom-python", 2180),
     ];

@@ -34,6 +34,13 @@ pub trait Equations {
         false
     }
 
+    /// Whether the tangent at the iterate differs so much from the one in use that a correction with it may be wasted, although
+    /// corrections with a new tangent need not decrease at once: it has the stresses to which the iterations lead, not those of the
+    /// iterate.
+    fn leads_elsewhere(&self) -> bool {
+        false
+    }
+
     /// Size of the corrections caused by rounding of the equations [-]: a new tangent does not reduce them.
     fn round_off(&self) -> f64 {
         0.0
@@ -165,6 +172,8 @@ const NOVELTY: f64 = 0.05;
 const STALLS_BELOW: f64 = 1e-6;
 /// If an exact solution is required, stalled corrections above this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
+/// Largest number of tangents in a solution that follow iterates far away: most need three to eight.
+const MAX_ELSEWHERE: usize = 20;
 /// If an exact solution is required, maximum number of new tangents for corrections that stall.
 const MAX_STALLS: usize = 2;
 
@@ -179,6 +188,8 @@ pub fn solve<E: Equations>(
 ) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     let mut previous: Option<f64> = None;
+    // Whether corrections led so far that tangents had to follow.
+    let mut elsewhere = 0;
     // Whether the tangent was assembled in this solution.
     let mut fresh = false;
     // Corrections made with the tangent since its assembly, and halvings of the last one.
@@ -210,11 +221,24 @@ pub fn solve<E: Equations>(
             Verdict::Renew | Verdict::BackOff if fresh && correction.size <= equations.round_off() => {
                 Verdict::Converged
             }
+            Verdict::Continue | Verdict::BackOff | Verdict::Restart
+                if correction.size.is_finite() && equations.leads_elsewhere() =>
+            {
+                elsewhere += 1;
+                if elsewhere > MAX_ELSEWHERE {
+                    break;
+                }
+                Verdict::Renew
+            }
             verdict => verdict,
         };
         match verdict {
             Verdict::Converged => {
                 jacobian.update_cost(&outcome, limits);
+                // The next solution will begin as far away.
+                if elsewhere > 0 {
+                    jacobian.forget_tangent();
+                }
                 return Ok(outcome);
             }
             Verdict::Stalled if stalls > 0 && correction.size > round_off::CORRECTION => {

@@ -2,8 +2,10 @@
 
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::{Gravity, Inertia};
+use lissom_core::elements::shell::Shell;
+use lissom_core::elements::shell::section::{Ply, ShellLaw};
 use lissom_core::elements::{Deformable, Element, Tangents};
-use lissom_core::kinematics::{Kinematics, NodeId, NodeMotion};
+use lissom_core::kinematics::{Kinematics, NodeId, NodeMotion, Stressed};
 use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
 
 /// Every level of vector instructions this processor has, and none.
@@ -94,7 +96,7 @@ fn compare<E: Element>(elements: &[E], at: &Kinematics) {
 /// The same of their derivatives with respect to positions and, where something is damped, to twists.
 fn compare_derivatives<E: Deformable>(
     elements: &[E],
-    (at, stressed): (&Kinematics, &Kinematics),
+    (at, stressed): (&Kinematics, Stressed<'_>),
     damped: bool,
 ) {
     let size = elements[0].unknowns().force_count();
@@ -166,7 +168,7 @@ fn beams<const N: usize>() {
                     .collect();
                 compare(&elements, &at);
                 let stressed = kinematics(&mut numbers, count * (N - 1) + 1, turn);
-                compare_derivatives(&elements, (&at, &stressed), (0..count).any(damped));
+                compare_derivatives(&elements, (&at, (&stressed).into()), (0..count).any(damped));
             }
         }
     }
@@ -185,6 +187,38 @@ fn beams_of_three_nodes() {
 #[test]
 fn beams_of_four_nodes() {
     beams::<4>();
+}
+
+/// Stresses of the geometric stiffness are those of another configuration, or predicted from it.
+#[test]
+fn shells() {
+    for (turn, count) in [(0.0, 1), (0.05, 7), (0.2, 8), (0.5, 21)] {
+        let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);
+        let mut elements = Vec::new();
+        let mut at = kinematics(&mut numbers, 4 * count, turn);
+        let mut stressed = at.clone();
+        for k in 0..count {
+            let whole = Motion::exponential(&numbers.vector());
+            let corners = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [1.1, 0.9, 0.1], [0.0, 1.0, 0.0]];
+            let nodes: [NodeId; 4] = std::array::from_fn(|i| NodeId::new(4 * k + i));
+            let place = |corner: [f64; 3]| whole * Motion::translation(Vector3::from(corner));
+            let frames = corners.map(place);
+            for (node, frame) in nodes.into_iter().zip(frames) {
+                at.nodes[node].frame = frame * Motion::exponential(&(turn * numbers.vector()));
+                stressed.nodes[node].frame = frame * Motion::exponential(&(turn * numbers.vector()));
+            }
+            let normals = [whole.rotation.apply(&Vector3::z()); 4];
+            let law = ShellLaw::laminate(&[Ply::isotropic(0.1, 3.0, 0.3, 1.0)], 0.02);
+            elements.push(Shell::new(nodes, &frames, &normals, None, law));
+        }
+        if turn > 0.0 {
+            compare(&elements, &at);
+        }
+        let predicted = Stressed { at: &at, previous: Some(&stressed) };
+        for stressed in [(&stressed).into(), predicted] {
+            compare_derivatives(&elements, (&at, stressed), false);
+        }
+    }
 }
 
 #[test]

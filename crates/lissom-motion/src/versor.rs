@@ -6,6 +6,7 @@ use std::ops::Mul;
 
 use crate::coefficients::HalfAngle;
 use crate::real::Real;
+use crate::square::Square;
 use crate::triple::Triple;
 
 /// A rotation as a unit quaternion.
@@ -112,6 +113,12 @@ impl<R: Real> Versor<R> {
     pub(crate) fn minus_identity_rows(self) -> [Triple<R>; 3] {
         let [a, b, c, d, e, f, g, h, i] = self.minus_identity();
         [Triple::new(a, b, c), Triple::new(d, e, f), Triple::new(g, h, i)]
+    }
+
+    /// The matrix `R`.
+    #[inline(always)]
+    pub fn matrix(self) -> Square<R> {
+        Square { rows: self.minus_identity_rows() } + Square::diagonal(self.scalar.like(1.0))
     }
 
     /// The matrix `R - I`, row by row, without cancellation for small angles: with the quaternion `(w, v)` it is `2

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use lissom_motion::WIDTH;
 
 use super::System;
+use lissom_mechanics::elements::Deformable;
 use lissom_mechanics::evaluation::batch::{AnyBatch, scatter, scatter_lane};
 use lissom_mechanics::evaluation::linearization::{Linearization, Scratch};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
@@ -33,7 +34,7 @@ impl System {
         let zero = vec![0.0; self.layout.multiplier_count];
         let point = Point {
             at,
-            stressed: at,
+            stressed: at.into(),
             increments: Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None },
             multipliers: &zero,
             violations: &zero,
@@ -152,6 +153,11 @@ impl System {
         self.linearize_constraints(point, chart, &mut scratch.joint, out);
     }
 
+    /// Whether an element predicts the stresses of the geometric stiffness from the configuration before a correction.
+    pub fn predicts_stresses(&self) -> bool {
+        self.elements_with(|own| own.deformation).any(Deformable::predicts_stresses)
+    }
+
     /// Whether there are elements that may be stiff.
     pub fn has_stiff_elements(&self) -> bool {
         self.batches.iter().any(|batch| batch.may_be_stiff())
@@ -166,7 +172,7 @@ impl System {
         out: &mut TangentAssembler<'_>,
     ) {
         for batch in self.batches.iter().filter(|batch| batch.may_be_stiff() == stiff) {
-            batch.linearize((at, at), Chart::Body, &mut scratch.local, out);
+            batch.linearize((at, at.into()), Chart::Body, &mut scratch.local, out);
         }
     }
 

@@ -18,7 +18,7 @@ use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
 use lissom_mechanics::evaluation::work::{power, power_gradient, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, USUAL_UNKNOWNS};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Stressed, USUAL_UNKNOWNS};
 use lissom_mechanics::signals::measurement::{Component, Gradient};
 use lissom_mechanics::signals::{Argument, DiscreteValueId, Graph, SignalId};
 
@@ -367,7 +367,7 @@ impl AnyBatch for DrivenBatch {
 
     fn linearize(
         &self,
-        (at, _): (&Kinematics, &Kinematics),
+        (at, _): (&Kinematics, Stressed<'_>),
         chart: Chart<'_>,
         scratch: &mut Tangents,
         out: &mut TangentAssembler<'_>,

@@ -142,7 +142,7 @@ impl ConsistentInitialConditions {
     pub(crate) fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
         Point {
             at,
-            stressed: at,
+            stressed: at.into(),
             increments: Increments {
                 start: at,
                 nodes: &self.still,

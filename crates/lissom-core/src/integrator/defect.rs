@@ -65,7 +65,7 @@ impl Integrator {
         let at = &state.kinematics;
         let point = Point {
             at,
-            stressed: at,
+            stressed: at.into(),
             increments: Increments { start: at, nodes: unmoved, coordinates: unchanged, joints: None },
             multipliers: &state.multipliers,
             violations: &state.violations,

@@ -1,5 +1,7 @@
 //! Nonlinear equations of one step for Newton's method.
 
+use std::f64::consts::PI;
+
 use lissom_motion::Vector6;
 use lissom_solver::FactorError;
 
@@ -9,7 +11,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::StepStages;
-use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
+use crate::kinematics::{Kinematics, LOCKED, Quantity, Stressed, Subject};
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
 use crate::saddle_point::TangentValues;
@@ -61,7 +63,12 @@ impl StepEquations<'_> {
     pub(crate) fn update_motions(&mut self) {
         self.watch.begin(Phase::Evaluation);
         let layout = self.system.layout();
-        for i in 0..self.scheme.stages.len() {
+        let last = self.scheme.stages.len() - 1;
+        let Workspace { motions, evaluation, .. } = &mut *self.work;
+        if let Some(previous) = &mut evaluation.previous {
+            previous.nodes.copy_from_slice(&motions[last].at.nodes);
+        }
+        for i in 0..=last {
             let increments = StageIncrements { all: &self.work.increments, stage: i };
             self.scaled.stage_motion(
                 layout,
@@ -120,7 +127,7 @@ impl StepEquations<'_> {
         let motion = &work.motions[stage];
         Point {
             at: &motion.at,
-            stressed: &motion.at,
+            stressed: Stressed { at: &motion.at, previous: work.evaluation.previous.as_ref() },
             increments: joint_changes(&self.start.kinematics, motion, &work.evaluation.joint_starts),
             multipliers: &work.multipliers[stage],
             violations: &self.start.violations,
@@ -214,7 +221,11 @@ impl StepEquations<'_> {
         };
         let mut point = self.point(last);
         if self.is_far() {
-            point.stressed = &self.start.kinematics;
+            point.stressed.at = &self.start.kinematics;
+        }
+        // The initial guess is no correction.
+        if self.work.newton.correction == f64::INFINITY {
+            point.stressed.previous = None;
         }
         self.system.assemble_tangent(&point, chart, &mut scratch, out);
         self.work.evaluation.node_tangents = tangents;
@@ -289,10 +300,12 @@ impl StepEquations<'_> {
         if !places.size.is_finite() {
             return places;
         }
-        // Larger corrections of rotations are scaled down to a radian, and displacements with them.
-        if places.size > largest {
+        // Larger corrections of rotations are scaled down to a radian, and displacements with them; with stresses that are predicted over
+        // the correction, to half a turn.
+        let most = if self.work.evaluation.previous.is_some() { PI * largest } else { largest };
+        if places.size > most {
             self.work.newton.anderson.interrupt();
-            let cut = largest / places.size;
+            let cut = most / places.size;
             self.work.residuals.iter_mut().flatten().for_each(|value| *value *= cut);
         }
         let corrections = std::mem::take(&mut self.work.residuals);
@@ -503,6 +516,10 @@ impl Equations for StepEquations<'_> {
     fn restart(&mut self) {
         self.work.newton.anderson.interrupt();
         self.predict();
+    }
+
+    fn leads_elsewhere(&self) -> bool {
+        self.work.evaluation.previous.is_some() && self.is_far()
     }
 
     fn is_wanted_exactly(&self) -> bool {

@@ -9,7 +9,7 @@ use super::predictor::Predictor;
 use crate::consistent::redundancy::Redundancy;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::starts::JointStarts;
-use crate::kinematics::{Layout, Quantity};
+use crate::kinematics::{Kinematics, Layout, Quantity};
 use crate::saddle_point::SaddlePoint;
 use crate::saddle_point::stage_tangents::StageTangents;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStepState};
@@ -93,6 +93,8 @@ pub(crate) struct EvaluationSpace {
     /// For evaluation on several threads, if the system is large.
     pub(crate) threads: Option<Threads>,
     pub(crate) processor: pulp::Arch,
+    /// Nodes of the last stage before the last correction, for elements that predict the stresses of the geometric stiffness.
+    pub(crate) previous: Option<Kinematics>,
 }
 
 /// Options of the solver.
@@ -198,6 +200,7 @@ impl Workspace {
                 scratch: Some(Box::default()),
                 threads: None,
                 processor: processor(layout.size()),
+                previous: system.predicts_stresses().then(|| state.kinematics.clone()),
             },
             options: SolverOptions::default(),
             contacts: StepContacts::of((system, solver)),

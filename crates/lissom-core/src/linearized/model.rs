@@ -396,7 +396,7 @@ pub(super) fn point<'b>(
 ) -> Point<'b> {
     Point {
         at,
-        stressed: at,
+        stressed: at.into(),
         increments: Increments { start: at, nodes, coordinates, joints: None },
         multipliers,
         violations,

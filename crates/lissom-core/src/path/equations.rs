@@ -14,7 +14,7 @@ use crate::errors::step_error::{NO_STEP_HELPS, pivot_hint};
 use crate::integrator::equations::FAR_FROM_EQUILIBRIUM;
 use crate::integrator::workspace::sizes;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
-use crate::kinematics::{Kinematics, LOCKED, MotionChange};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange, Stressed};
 use crate::newton::{Correction, Equations, Failure};
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::{Representative, Scaled};
@@ -68,6 +68,8 @@ pub(super) struct PathWork {
 /// The point at which the equations are evaluated.
 struct Iterate {
     at: Kinematics,
+    /// Before the last correction.
+    previous: Kinematics,
     changes: Vec<MotionChange>,
     coordinate_changes: Vec<f64>,
     multipliers: Vec<f64>,
@@ -121,6 +123,7 @@ impl PathWork {
             scratch: Scratch::default(),
             iterate: Iterate {
                 at: state.kinematics.clone(),
+                previous: state.kinematics.clone(),
                 changes: vec![MotionChange::none(); state.kinematics.nodes.len()],
                 coordinate_changes: vec![0.0; state.kinematics.coordinates.len()],
                 multipliers: state.multipliers.clone(),
@@ -216,6 +219,7 @@ impl PathEquations<'_> {
             work.saddle.omit(work.redundancy.omitted());
         }
         work.iterate.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
+        work.iterate.previous.nodes.copy_from_slice(&self.start.kinematics.nodes);
         work.iterate.at.coordinates.copy_from_slice(&self.start.kinematics.coordinates);
         (work.iterate.at.time, work.iterate.at.elapsed) = (self.start.kinematics.time, 0.0);
         work.iterate.changes.fill(MotionChange::none());
@@ -240,6 +244,7 @@ impl PathEquations<'_> {
     fn apply(&mut self, change: &Change, share: f64) {
         let layout = self.systems.any().layout();
         let work = &mut *self.work;
+        work.iterate.previous.nodes.copy_from_slice(&work.iterate.at.nodes);
         for (node, rows) in layout.node_rows.iter().enumerate() {
             let mut psi = Vector6::zeros();
             for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
@@ -273,7 +278,10 @@ impl PathEquations<'_> {
         let work = &*self.work;
         Point {
             at: &work.iterate.at,
-            stressed: if stressed_at_start { &self.start.kinematics } else { &work.iterate.at },
+            stressed: Stressed {
+                at: if stressed_at_start { &self.start.kinematics } else { &work.iterate.at },
+                previous: Some(&work.iterate.previous),
+            },
             increments: Increments {
                 start: &self.start.kinematics,
                 nodes: &work.iterate.changes,
@@ -559,6 +567,10 @@ impl Equations for PathEquations<'_> {
         // The stresses of an iterate far from equilibrium are meaningless.
         let is_far = self.work.correction > FAR_FROM_EQUILIBRIUM;
         self.factor(is_far)
+    }
+
+    fn leads_elsewhere(&self) -> bool {
+        self.work.correction > FAR_FROM_EQUILIBRIUM && self.systems.any().predicts_stresses()
     }
 
     fn restart(&mut self) {

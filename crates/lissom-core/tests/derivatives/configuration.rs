@@ -227,7 +227,7 @@ impl Configuration {
     pub(crate) fn point(&self, augmentation: f64) -> Point<'_> {
         Point {
             at: &self.at,
-            stressed: &self.at,
+            stressed: (&self.at).into(),
             increments: Increments {
                 start: &self.start,
                 nodes: &self.changes,

@@ -16,6 +16,7 @@ mod neighbours;
 mod ports;
 mod rigid_contacts;
 mod rolling;
+mod shells;
 mod superelement;
 
 use configuration::{Configuration, Random, difference, sample_parameters};

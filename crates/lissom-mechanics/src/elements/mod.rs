@@ -37,6 +37,7 @@ pub mod rolling;
 pub mod rolling_contact;
 pub mod rope;
 pub mod shape;
+pub mod shell;
 pub mod stop;
 pub mod superelement;
 

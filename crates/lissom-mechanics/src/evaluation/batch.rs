@@ -19,7 +19,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId, Stressed};
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -100,7 +100,7 @@ pub trait AnyBatch: Any + Send + Sync {
     /// Adds the derivatives of all items; the geometric stiffness uses the stresses of the second configuration.
     fn linearize(
         &self,
-        at_stressed: (&Kinematics, &Kinematics),
+        at_stressed: (&Kinematics, Stressed<'_>),
         chart: Chart<'_>,
         scratch: &mut Tangents,
         out: &mut TangentAssembler<'_>,
@@ -342,7 +342,7 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn linearize(
         &self,
-        (at, stressed): (&Kinematics, &Kinematics),
+        (at, stressed): (&Kinematics, Stressed<'_>),
         chart: Chart<'_>,
         scratch: &mut Tangents,
         out: &mut TangentAssembler<'_>,

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use lissom_motion::{Block, WIDTH};
 
-use crate::kinematics::{Kinematics, NodeId};
+use crate::kinematics::{Kinematics, NodeId, Stressed};
 
 /// All elements of a batch, in blocks of eight.
 pub trait Blocks: Send + Sync {
@@ -28,7 +28,7 @@ pub trait Blocks: Send + Sync {
     fn linearize(
         &self,
         _processor: pulp::Arch,
-        _at_stressed: (&Kinematics, &Kinematics),
+        _at_stressed: (&Kinematics, Stressed<'_>),
         _blocks: Range<usize>,
         _add: &mut dyn FnMut(usize, [&[Block]; 2]),
     ) -> bool {

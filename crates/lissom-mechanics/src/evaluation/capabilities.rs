@@ -5,7 +5,9 @@ use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
 use crate::contact::hollow::Hollow;
-use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Subject, Switch};
+use crate::kinematics::{
+    CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Stressed, Subject, Switch,
+};
 use crate::law::VisitLaw;
 use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
@@ -150,9 +152,14 @@ pub trait StrainSlopes: Element {
 
 /// Elements that deform, with geometric stiffness.
 pub trait Deformable: Element {
-    /// As [`Element::linearize`], with the stresses of another configuration in the geometric stiffness: far from equilibrium those
-    /// of an iterate are meaningless, see `Point::stressed`.
-    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents);
+    /// As [`Element::linearize`], with the stresses of another configuration in the geometric stiffness: see
+    /// [`Stressed`].
+    fn linearize_stressed(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents);
+
+    /// Whether it predicts the stresses of the geometric stiffness from [`Stressed::previous`]. Default: it does not.
+    fn predicts_stresses(&self) -> bool {
+        false
+    }
 
     /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
     /// nodes.

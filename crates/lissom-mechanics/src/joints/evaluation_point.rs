@@ -2,7 +2,7 @@
 
 use super::derivatives::IncrementTangent;
 use super::starts::JointStarts;
-use crate::kinematics::{Kinematics, MotionChange, NodeMotion, Quantity};
+use crate::kinematics::{Kinematics, MotionChange, NodeMotion, Quantity, Stressed};
 
 /// Changes since the start of the step.
 #[derive(Clone, Copy, Debug)]
@@ -22,10 +22,8 @@ pub struct Increments<'a> {
 pub struct Point<'a> {
     /// Positions, twists and accelerations.
     pub at: &'a Kinematics,
-    /// Configuration whose stresses are used in the geometric stiffness: `at` itself, or, while iterations are far
-    /// from equilibrium, the start of the step. Stresses of a distant iterate can be larger than any in the motion,
-    /// because a small rotation stretches a stiff element [cf. Magisano, Leonetti and Garcea 2017].
-    pub stressed: &'a Kinematics,
+    /// Where the stresses of the geometric stiffness are from.
+    pub stressed: Stressed<'a>,
     /// Changes since the start of the step.
     pub increments: Increments<'a>,
     /// Multipliers [N, N m].

@@ -19,7 +19,7 @@ pub(crate) use ids::indexed_by;
 pub use ids::{CoordinateId, DiscreteValueId, MeasurementId, NodeId, SignalId};
 pub use layout::{Freedoms, LOCKED, Layout, MAX_NODES, USUAL_UNKNOWNS};
 pub use motion::split;
-pub use motion::{CoordinateMotion, GROUND, Kinematics, MotionChange, NodeMotion};
+pub use motion::{CoordinateMotion, GROUND, Kinematics, MotionChange, NodeMotion, Stressed};
 pub use quantity::Quantity;
 pub use step_stages::StepStages;
 pub use subject::Subject;

@@ -50,6 +50,23 @@ impl NodeMotion {
     }
 }
 
+/// Where the stresses of the geometric stiffness are from. Those of an iterate far from equilibrium are meaningless: they can be larger
+/// than any in the motion, because a small rotation stretches a stiff element [cf. Magisano, Leonetti and Garcea 2017].
+#[derive(Clone, Copy, Debug)]
+pub struct Stressed<'a> {
+    /// The configuration whose stresses are used: the iterate itself, or, while iterations are far from equilibrium, the start of the
+    /// step.
+    pub at: &'a Kinematics,
+    /// The configuration from which an element may instead predict them linearly up to the iterate.
+    pub previous: Option<&'a Kinematics>,
+}
+
+impl<'a> From<&'a Kinematics> for Stressed<'a> {
+    fn from(at: &'a Kinematics) -> Self {
+        Self { at, previous: None }
+    }
+}
+
 /// Translation and rotation parts of a twist or wrench.
 pub fn split(screw: &Vector6) -> (Vector3, Vector3) {
     (Vector3::new(screw[0], screw[1], screw[2]), Vector3::new(screw[3], screw[4], screw[5]))

@@ -222,7 +222,7 @@ impl RecoveryMatrix {
     fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
         Point {
             at,
-            stressed: at,
+            stressed: at.into(),
             increments: Increments {
                 start: at,
                 nodes: &self.still,

@@ -12,7 +12,7 @@ use super::forces::{Constants, forces};
 use super::linearize::{Matrices, Viscous, linearize, through_offsets};
 use crate::evaluation::blocks::{Blocks, block_of, nodes_of};
 use crate::kinematics::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
-use crate::kinematics::{Kinematics, MAX_NODES, NodeId};
+use crate::kinematics::{Kinematics, MAX_NODES, NodeId, Stressed};
 
 /// Beams in blocks of eight.
 pub(super) struct BeamBlocks<const N: usize> {
@@ -115,7 +115,7 @@ impl<const N: usize> Blocks for BeamBlocks<N> {
     fn linearize(
         &self,
         processor: pulp::Arch,
-        at_stressed: (&Kinematics, &Kinematics),
+        at_stressed: (&Kinematics, Stressed<'_>),
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, [&[Block]; 2]),
     ) -> bool {
@@ -146,7 +146,7 @@ impl<const N: usize> WithSimd for Evaluation<'_, N> {
 
 struct Linearization<'a, const N: usize> {
     beams: &'a BeamBlocks<N>,
-    at_stressed: (&'a Kinematics, &'a Kinematics),
+    at_stressed: (&'a Kinematics, Stressed<'a>),
     blocks: Range<usize>,
     add: &'a mut dyn FnMut(usize, [&[Block]; 2]),
 }
@@ -173,7 +173,7 @@ impl<const N: usize> WithSimd for Linearization<'_, N> {
             let block = &self.beams.blocks[index];
             for i in 0..N {
                 let nodes = &block.nodes[i][..block.count];
-                for (j, motion) in [at, stressed].into_iter().enumerate() {
+                for (j, motion) in [at, stressed.at].into_iter().enumerate() {
                     gather_frames(motion, nodes, WIDTH, &mut gathered.frames[j][i]);
                     if block.damped {
                         gather_twists(motion, nodes, WIDTH, &mut gathered.twists[j][i]);

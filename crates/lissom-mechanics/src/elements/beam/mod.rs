@@ -40,7 +40,7 @@ use super::shape::lagrange;
 use super::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns};
 use crate::evaluation::blocks::Blocks;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{Kinematics, NodeId, split};
+use crate::kinematics::{Kinematics, NodeId, Stressed, split};
 
 /// Elastic law of a beam's cross section: forces (axial, shear 2, shear 3) and moments (torsion,
 /// bending 2, bending 3) for the six strains.
@@ -388,7 +388,7 @@ impl<const N: usize> Element for Beam<N> {
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        self.linearize_stressed(at, at, out);
+        self.linearize_stressed(at, at.into(), out);
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
@@ -411,9 +411,10 @@ impl<const N: usize> Element for Beam<N> {
 }
 
 impl<const N: usize> Deformable for Beam<N> {
-    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        let frames = [at, stressed].map(|at| std::array::from_fn(|i| Pose::from(&self.section_frame(at, i))));
-        let twists = [at, stressed].map(|at| std::array::from_fn(|i| (&self.section_twist(at, i)).into()));
+    fn linearize_stressed(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
+        let frames =
+            [at, stressed.at].map(|at| std::array::from_fn(|i| Pose::from(&self.section_frame(at, i))));
+        let twists = [at, stressed.at].map(|at| std::array::from_fn(|i| (&self.section_twist(at, i)).into()));
         let offsets = self.offsets.map(|offset| Pose::from(&offset.unwrap_or_default()));
         let zeros = [[[Screw::zero(0.0); 6]; N]; N];
         let [mut stiffness, mut damping] = [zeros; 2];

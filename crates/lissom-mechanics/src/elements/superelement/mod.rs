@@ -66,7 +66,7 @@ use super::{
     Capabilities, Deformable, Element, Energy, LinearLimit, LinearRange, OwnInertia, Tangents, Unknowns,
 };
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, split};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Stressed, split};
 
 /// Elastic rotation of an interface relative to the floating frame that causes a warning [rad]: forces that grow by the square of
 /// the rotation are a few hundredths of the others.
@@ -188,7 +188,7 @@ impl Element for Superelement {
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        self.linearize_stressed(at, at, out);
+        self.linearize_stressed(at, at.into(), out);
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
@@ -219,10 +219,10 @@ impl Element for Superelement {
 }
 
 impl Deformable for Superelement {
-    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
+    fn linearize_stressed(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
         SCRATCH.with_borrow_mut(
             |ThreadScratch { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
-                other.enter(&self.part, stressed);
+                other.enter(&self.part, stressed.at);
                 self.part.stress(other);
                 own.enter(&self.part, at);
                 own.stress.copy_from_slice(&other.stress);

@@ -1,0 +1,117 @@
+//! Shells: their tangents are the derivatives of their forces, these are the gradient of their energy, and nothing but rigid motions is free of
+//! energy.
+
+use std::sync::Arc;
+
+use lissom_core::elements::shell::Shell;
+use lissom_core::elements::shell::pressure::Pressure;
+use lissom_core::elements::shell::section::{Ply, ShellLaw};
+use lissom_core::elements::{Element, Tangents};
+use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
+use lissom_core::system::{Builder, State, System};
+use lissom_motion::{Motion, Vector3};
+use nalgebra::DMatrix;
+
+use super::check;
+use super::configuration::{Configuration, Random, Wave, difference};
+
+/// A warped element of two layers at an angle.
+fn shell(random: &mut Random) -> (System, State, Shell) {
+    let mut builder = Builder::new();
+    let whole = random.motion();
+    let places = [[0.0, 0.0, 0.0], [1.1, 0.1, 0.05], [1.3, 0.9, -0.04], [-0.1, 0.8, 0.1]].map(Vector3::from);
+    let frames =
+        places.map(|place| whole * Motion::translation(place) * Motion::exponential(&random.screw()));
+    let nodes: [NodeId; 4] =
+        std::array::from_fn(|i| builder.add_node(&format!("node {i}"), frames[i], Freedoms::Full));
+    let normal = |tilt: [f64; 2]| whole.rotation.apply(&Vector3::new(tilt[0], tilt[1], 1.0).normalize());
+    let normals = [[0.0, 0.1], [0.1, 0.0], [-0.1, 0.1], [0.05, 0.0]].map(normal);
+    let ply = Ply {
+        thickness: 0.2,
+        angle: 0.4,
+        young: [3.0, 1.0],
+        poisson: 0.25,
+        shear: [0.6, 0.5, 0.4],
+        density: 1.0,
+    };
+    let law = ShellLaw::laminate(&[ply, Ply { angle: -0.9, ..ply }], 0.0);
+    let shell = Shell::new(nodes, &frames, &normals, None, ShellLaw { drilling: 0.05, ..law });
+    builder.add_element(shell.clone());
+    let (system, state) = builder.build(0.0).expect("valid");
+    (system, state, shell)
+}
+
+#[test]
+fn tangents_of_pressure_are_the_derivatives_of_its_forces() {
+    let mut random = Random::new(9);
+    let mut builder = Builder::new();
+    let nodes =
+        std::array::from_fn(|i| builder.add_node(&format!("node {i}"), random.motion(), Freedoms::Full));
+    builder.add_element(Pressure::new(nodes, Arc::new(Wave)));
+    let (system, state) = builder.build(0.0).expect("valid");
+    check("pressure", &system, &state, 0.4, &mut random);
+}
+
+fn at_rest(mut at: Kinematics) -> Kinematics {
+    for node in &mut at.nodes {
+        node.twist.fill(0.0);
+        node.acceleration.fill(0.0);
+    }
+    at
+}
+
+#[test]
+fn tangents_are_the_derivatives_of_forces() {
+    let mut random = Random::new(5);
+    let (system, state, _) = shell(&mut random);
+    check("shell", &system, &state, 0.4, &mut random);
+}
+
+#[test]
+fn forces_are_the_gradient_of_the_energy() {
+    let mut random = Random::new(6);
+    let (system, state, shell) = shell(&mut random);
+    assert!(shell.energy(&state.kinematics).strain.abs() < 1e-28);
+    let here = Configuration::random(&system, &state, 0.3, &mut random);
+    let mut forces = vec![0.0; 24];
+    shell.forces(&at_rest(here.at.clone()), &mut forces);
+    for (column, force) in forces.iter().enumerate() {
+        let slope =
+            difference(|step| vec![shell.energy(&here.displaced(&system, column, step, false).at).strain])[0];
+        assert!((force - slope).abs() < 1e-8 * (1.0 + force.abs()), "{column}: {force}, {slope}");
+    }
+}
+
+#[test]
+fn only_rigid_motions_are_without_energy() {
+    let mut random = Random::new(7);
+    let (_, state, shell) = shell(&mut random);
+    let mut tangents = Tangents::new(24);
+    shell.linearize(&state.kinematics, &mut tangents);
+    let stiffness = DMatrix::from_row_slice(24, 24, &tangents.stiffness);
+    assert!((&stiffness - stiffness.transpose()).amax() < 1e-14 * stiffness.amax());
+    let mut values: Vec<f64> = stiffness.symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    assert!(values[..6].iter().all(|value| value.abs() < 1e-14 * values[23]), "{values:?}");
+    assert!(values[6] > 1e-4 * values[23], "{values:?}");
+}
+
+#[test]
+fn a_rigid_motion_changes_nothing() {
+    let mut random = Random::new(8);
+    let (system, state, shell) = shell(&mut random);
+    let here = at_rest(Configuration::random(&system, &state, 0.3, &mut random).at);
+    let motion = random.motion();
+    let mut there = here.clone();
+    for node in &mut there.nodes {
+        node.frame = motion * node.frame;
+    }
+    let forces = |at: &Kinematics| {
+        let mut forces = vec![0.0; 24];
+        shell.forces(at, &mut forces);
+        forces
+    };
+    let (one, other) = (forces(&here), forces(&there));
+    let largest = one.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    assert!(one.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-13 * largest), "{one:?}\n{other:?}");
+}

@@ -1,0 +1,179 @@
+//! A surface of shell elements: nodes, elements and the nodes' shares of the mass, from a mesh of quadrilaterals.
+
+use std::sync::Arc;
+
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
+
+use super::Shell;
+use super::condensed::areas;
+use super::reference::Reference;
+use super::section::{Ply, ShellLaw};
+use crate::elements::contribution::Contribution;
+use crate::elements::inertia::Inertia;
+use crate::elements::initial_model::InitialModel;
+use crate::kinematics::{Freedoms, NodeId};
+
+/// Law and mass of an element.
+#[derive(Clone, Debug)]
+pub struct ShellSection {
+    /// Elastic law.
+    pub law: ShellLaw,
+    /// Mass per area [kg/m²].
+    pub mass: f64,
+    /// Moment of inertia per area of a line across the surface [kg].
+    pub inertia: f64,
+}
+
+impl ShellSection {
+    /// A laminate of layers from the bottom to the top; one for a homogeneous shell.
+    pub fn laminate(plies: &[Ply]) -> Self {
+        let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
+        let (mut mass, mut inertia, mut below) = (0.0, 0.0, -0.5 * whole);
+        for ply in plies {
+            let above = below + ply.thickness;
+            mass += ply.density * ply.thickness;
+            inertia += ply.density * (above.powi(3) - below.powi(3)) / 3.0;
+            below = above;
+        }
+        Self { law: ShellLaw::laminate(plies, 0.0), mass, inertia }
+    }
+}
+
+/// Description of a surface of shell elements.
+pub struct SurfaceDescription<'a> {
+    /// Position of each node [m].
+    pub positions: &'a [Vector3],
+    /// Name of each node.
+    pub names: &'a dyn Fn(usize) -> String,
+    /// Nodes of each element, counterclockwise about the normal.
+    pub elements: &'a [[usize; 4]],
+    /// Unit normal at each node where it is known; none for the mean of the elements' normals.
+    pub normals: Option<&'a [Vector3]>,
+    /// Largest angle between normals of elements at a node that count as one smooth surface [rad].
+    pub fold_angle: f64,
+    /// Direction that is projected on each element to be its first local axis.
+    pub direction: Option<Vector3>,
+    /// Section of each element.
+    pub section: &'a dyn Fn(usize) -> ShellSection,
+}
+
+/// A surface of shell elements as built.
+#[derive(Clone, Debug)]
+pub struct ShellSurface {
+    /// Its nodes.
+    pub nodes: Vec<NodeId>,
+    /// Area that belongs to each node [m²].
+    pub areas: Vec<f64>,
+    /// Its elements, for outputs.
+    pub elements: Vec<Arc<Shell>>,
+}
+
+/// A surface of shell elements.
+pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> (Contribution, ShellSurface) {
+    let mut contribution = Contribution::to(model);
+    let references: Vec<Reference> = surface
+        .elements
+        .iter()
+        .map(|own| Reference::new(own.map(|node| surface.positions[node]), surface.direction))
+        .collect();
+    let directors = directors(surface, &references);
+    let frames = frames(surface, &references, &directors);
+    let nodes: Vec<NodeId> = frames
+        .iter()
+        .enumerate()
+        .map(|(node, frame)| contribution.add_node(&(surface.names)(node), *frame, Freedoms::Full))
+        .collect();
+    let mut own_areas = vec![0.0; nodes.len()];
+    let mut elements = Vec::with_capacity(references.len());
+    for (index, own) in surface.elements.iter().enumerate() {
+        let section = (surface.section)(index);
+        for (&node, area) in own.iter().zip(areas(&references[index]).iter()) {
+            own_areas[node] += area;
+            // Equal about all axes, also about the normal: no fast rotation about it, and no moment of a rotating node.
+            let inertia = Matrix3::from_diagonal_element(section.inertia * area);
+            let mass = Inertia::of_rigid_body(section.mass * area, &Vector3::zeros(), &inertia);
+            contribution.add_inertia(nodes[node], mass);
+        }
+        let shell = Shell::new(
+            own.map(|node| nodes[node]),
+            &own.map(|node| frames[node]),
+            &directors[index],
+            surface.direction,
+            section.law,
+        );
+        elements.push(Arc::new(shell.clone()));
+        contribution = contribution.with(shell);
+    }
+    (contribution, ShellSurface { nodes, areas: own_areas, elements })
+}
+
+/// The normal of each element at each of its nodes: that of the smooth surface around the node to which the element belongs.
+fn directors(surface: &SurfaceDescription<'_>, references: &[Reference]) -> Vec<[Vector3; 4]> {
+    let own: Vec<[Vector3; 4]> = references.iter().map(Reference::nodal_normals).collect();
+    if let Some(normals) = surface.normals {
+        let of = |(element, own): (&[usize; 4], &[Vector3; 4])| {
+            std::array::from_fn(|i| {
+                let normal = normals[element[i]];
+                normal * normal.dot(&own[i]).signum()
+            })
+        };
+        return surface.elements.iter().zip(&own).map(of).collect();
+    }
+    let mut corners: Vec<Vec<(usize, usize)>> = vec![Vec::new(); surface.positions.len()];
+    for (index, element) in surface.elements.iter().enumerate() {
+        element.iter().enumerate().for_each(|(i, &node)| corners[node].push((index, i)));
+    }
+    let area: Vec<f64> = references.iter().map(|reference| reference.axes(0.0, 0.0).area).collect();
+    let least = surface.fold_angle.cos();
+    let mut directors = own.clone();
+    for corners in &corners {
+        let mut waiting = corners.clone();
+        while let Some(first) = waiting.pop() {
+            let mut smooth = vec![first];
+            let mut next = 0;
+            while let Some(&(element, i)) = smooth.get(next) {
+                let normal = own[element][i];
+                let (near, far) = waiting.iter().partition(|&&(other, k)| own[other][k].dot(&normal) > least);
+                (waiting, next) = (far, next + 1);
+                smooth.extend::<Vec<_>>(near);
+            }
+            let sum: Vector3 = smooth.iter().map(|&(element, i)| area[element] * own[element][i]).sum();
+            for &(element, i) in &smooth {
+                directors[element][i] = sum.normalize();
+            }
+        }
+    }
+    directors
+}
+
+/// Frames of the nodes: third axis along the mean normal, first along the first local axis of an element.
+fn frames(
+    surface: &SurfaceDescription<'_>,
+    references: &[Reference],
+    directors: &[[Vector3; 4]],
+) -> Vec<Motion> {
+    let mut normals = vec![Vector3::zeros(); surface.positions.len()];
+    let mut firsts = vec![Vector3::zeros(); surface.positions.len()];
+    for ((element, reference), directors) in surface.elements.iter().zip(references).zip(directors) {
+        for (&node, director) in element.iter().zip(directors) {
+            normals[node] += director;
+            if firsts[node] == Vector3::zeros() {
+                firsts[node] = reference.first;
+            }
+        }
+    }
+    let frame = |((position, normal), first): ((&Vector3, &Vector3), &Vector3)| {
+        // Normals of opposite sides cancel out, and a fold may have its normal along the first axis.
+        let third = normal.try_normalize(1e-6).unwrap_or_else(Vector3::z);
+        let first = first - third * first.dot(&third);
+        let first = first.try_normalize(1e-6).unwrap_or_else(|| across(&third));
+        let axes = Matrix3::from_columns(&[first, third.cross(&first), third]);
+        Motion::new(Rotation::from_matrix(&axes), *position)
+    };
+    surface.positions.iter().zip(&normals).zip(&firsts).map(frame).collect()
+}
+
+/// A unit vector perpendicular to another.
+fn across(vector: &Vector3) -> Vector3 {
+    vector.cross(&Vector3::ith(vector.iamin(), 1.0)).normalize()
+}
