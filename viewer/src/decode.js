@@ -94,19 +94,25 @@ class Cursor {
   }
 }
 
-/** Frames of a channel are whole multiples of its quantum, kept as second differences. */
+/** Distance of two numbers of single precision that are about one. */
+const SINGLE = 2 ** -24;
+
+/** Frames of a channel are whole multiples of its quantum, kept as second differences. Returns the distance of its numbers. */
 const channel = (cursor, frames, out, offset, stride) => {
   const start = cursor.double();
   const quantum = cursor.double();
   let value = 0;
   let slope = 0;
+  let largest = 0;
   for (let frame = 0; frame < frames; frame++) {
     if (quantum !== 0) {
       slope += cursor.integer();
       value += slope;
     }
     out[frame * stride + offset] = start + quantum * value;
+    largest = Math.max(largest, Math.abs(start + quantum * value));
   }
+  return Math.max(quantum, SINGLE * largest);
 };
 
 /** Poses and section forces of all frames. */
@@ -117,14 +123,16 @@ export const decodeMotion = async (motion) => {
   const doubles = (count) => Float64Array.from({ length: count }, () => cursor.double());
   const times = doubles(frames);
   const reference = doubles(7 * nodes.length);
-  const read = (count) => {
+  const read = (count, quanta = []) => {
     const out = new Float32Array(frames * count);
-    for (let k = 0; k < count; k++) channel(cursor, frames, out, k, count);
+    for (let k = 0; k < count; k++) quanta[k] = channel(cursor, frames, out, k, count);
     return out;
   };
-  const displacements = read(3 * nodes.length);
-  const rotations = read(3 * nodes.length);
+  /** Distances of the numbers that stand for displacements and rotations, one of each component. */
+  const quanta = { displacements: new Float64Array(3 * nodes.length), rotations: new Float64Array(3 * nodes.length) };
+  const displacements = read(3 * nodes.length, quanta.displacements);
+  const rotations = read(3 * nodes.length, quanta.rotations);
   const points = forcePoints.reduce((sum, beam) => sum + beam.at.length, 0);
   const forces = read(6 * points);
-  return { nodes, forcePoints, points, frames, times, reference, displacements, rotations, forces };
+  return { nodes, forcePoints, points, frames, times, reference, displacements, rotations, forces, quanta };
 };

@@ -1,5 +1,7 @@
 // What parts can be coloured by.
 
+import { ofShellNodes, shellFields } from "./shell_fields.js";
+
 const names = ["axial force", "shear force 2", "shear force 3", "torsion", "bending moment 2", "bending moment 3"];
 
 /** A function of the fraction s from values at places that ascend; straight beyond the ends of an element. */
@@ -44,15 +46,13 @@ const ofNodes = (title, unit, numbers) => ({
   unit,
   alongBeam: (beam) => piecewise(beam.places, (k) => numbers()[beam.nodes[k]]),
   ofNode: (node) => numbers()[node],
+  onShell: ofShellNodes(numbers),
   extremes: () => [0, numbers().reduce((most, value) => Math.max(most, value), 0)],
 });
 
-/** All fields by name. */
-export const fields = (scene, kinematics) => {
-  const found = {
-    speed: ofNodes("speed", "m/s", () => kinematics.speeds),
-    displacement: ofNodes("displacement", "m", () => kinematics.distances),
-  };
+/** Fields of section forces by name. */
+const beamFields = (scene, kinematics) => {
+  const found = {};
   if (kinematics.motion.points === 0) return found;
   const first = new Map();
   let count = 0;
@@ -99,11 +99,20 @@ export const fields = (scene, kinematics) => {
   return found;
 };
 
+/** All fields by name. */
+export const fields = (scene, kinematics) => ({
+  speed: ofNodes("speed", "m/s", () => kinematics.speeds),
+  displacement: ofNodes("displacement", "m", () => kinematics.distances),
+  ...beamFields(scene, kinematics),
+  ...shellFields(scene.shells ?? [], kinematics),
+});
+
 /** Values below this are round-off: section forces beside the largest of the run, motions beside the size of the model. */
 const ROUND_OFF = 1e-9;
 
 /** The largest value that is round-off in a field. */
 export const roundOff = (field, { motion }, size) => {
+  if (field.roundOff) return field.roundOff();
   const { unit } = field;
   if (unit === "m") return ROUND_OFF * size;
   if (unit === "m/s") return (ROUND_OFF * size) / Math.max(motion.times[motion.frames - 1] - motion.times[0], 1e-300);

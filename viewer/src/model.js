@@ -9,6 +9,7 @@ import { Symbols } from "./joints.js";
 import { Outline } from "./outline.js";
 import { SectionAxes } from "./section_axes.js";
 import { CASTERS } from "./shadow.js";
+import { ShellMesh } from "./shells.js";
 import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
 
@@ -37,6 +38,13 @@ const corners = ({ attributes }) => {
     found.push(farthest);
   }
   return found;
+};
+
+/** The one of some places that is nearest to their middle. */
+const middleOf = (places) => {
+  const middle = [0, 1, 2].map((k) => places.reduce((sum, place) => sum + place[k], 0) / places.length);
+  const distances = places.map((place) => Math.hypot(...place.map((x, k) => x - middle[k])));
+  return distances.indexOf(Math.min(...distances));
 };
 
 const isShown = (object) => object === null || (object.visible && isShown(object.parent));
@@ -68,6 +76,12 @@ export class ModelView {
       const own = next();
       const drawn = new BeamMesh(beam, kinematics, size, own);
       this.add("parts", drawn, drawn.mesh, own, { kind: "beam", part: beam });
+    }
+    // Scenes of earlier versions have no shells.
+    for (const shell of scene.shells ?? []) {
+      const own = next();
+      const drawn = new ShellMesh(shell, kinematics, size, own);
+      this.add("parts", drawn, drawn.mesh, own, { kind: "shell", part: shell });
     }
     for (const body of scene.bodies) {
       const own = next();
@@ -174,14 +188,17 @@ export class ModelView {
     this.hidden = { ...this.hidden, [kind]: !isShown };
   }
 
-  /** How a part is shown: `isHidden`, `isTransparent`, whether its initial shape is drawn as a ghost, and a beam with the axes of its sections. */
-  style(name, { isHidden = false, isTransparent = false, hasInitial = false, hasAxes = false }) {
+  /**
+   * How a part is shown: `isHidden`, `isTransparent`, whether its initial shape is drawn as a ghost, a beam with the axes of its sections, and
+   * a shell with the edges of its elements.
+   */
+  style(name, { isHidden = false, isTransparent = false, hasInitial = false, hasAxes = false, hasEdges = false }) {
     const known = this.parts.get(name);
     if (!known?.object) return;
     known.isHidden = isHidden;
     known.object.visible = !isHidden;
     const materials = new Set([known.drawn.plain, known.drawn.material]);
-    known.object.traverse((child) => child.isMesh && child.material !== this.outline?.material && materials.add(child.material));
+    known.object.traverse((child) => child.isMesh && !this.outline?.has(child) && materials.add(child.material));
     for (const material of materials) {
       if (!material) continue;
       Object.assign(material, { transparent: isTransparent, opacity: isTransparent ? 0.3 : 1, depthWrite: !isTransparent, needsUpdate: true });
@@ -196,6 +213,7 @@ export class ModelView {
     }
     known.axes = hasAxes && known.kind === "beam" ? new SectionAxes(known.drawn, 0.05 * this.stage.size) : null;
     if (known.axes) this.group.add(known.axes.lines);
+    known.drawn.showEdges?.(hasEdges);
     known.initial = hasInitial ? this.initialShape(known) : null;
     if (known.initial) this.group.add(known.initial);
   }
@@ -211,9 +229,11 @@ export class ModelView {
     copy.visible = true;
     copy.traverse((child) => {
       child.raycast = () => {};
-      if (!child.isMesh) return;
+      if (!child.geometry) return;
       child.geometry = child.geometry.clone();
-      child.material = material;
+      // Of lines and outlines there is no ghost.
+      if (child.isMesh && !this.outline?.has(child)) child.material = material;
+      else child.visible = false;
     });
     this.kinematics.set(time);
     drawn.update();
@@ -276,6 +296,9 @@ export class ModelView {
       if (kind === "beam") {
         const value = field.alongBeam(part);
         drawn.paint(value ? (s, out) => shade(share(value(s)), field.isSigned, out) : null, theme.neutral);
+      } else if (kind === "shell") {
+        const values = field.onShell?.(part);
+        drawn.paint(values ? share : null, theme.neutral, values, field.isSigned);
       } else if (kind === "body" || kind === "point mass") {
         const value = field.ofNode?.(part.node);
         drawn.paint(value === undefined ? null : (out) => shade(share(value), field.isSigned, out), theme.neutral);
@@ -350,6 +373,7 @@ export class ModelView {
     if (!known) return null;
     const { part, kind, drawn } = known;
     if (kind === "beam") return { node: part.nodes[part.nodes.length >> 1], position: [0, 0, 0] };
+    if (kind === "shell") return { node: part.nodes[middleOf(part.positions)], position: [0, 0, 0] };
     if (part.node !== undefined) return { node: part.node, position: part.shape?.center ?? [0, 0, 0] };
     if (part.anchor) return part.anchor;
     if (part.anchors) return part.anchors[1];
@@ -379,6 +403,7 @@ export class ModelView {
     this.group.traverse((child) => {
       child.raycast = () => {};
       if (child.isMesh) child.material = material;
+      else if (child.isLine) child.visible = false;
     });
   }
 
@@ -393,9 +418,10 @@ export class ModelView {
       child.geometry?.dispose();
       child.material?.dispose?.();
     });
-    for (const { material, plain } of this.moving) {
-      material?.dispose();
-      plain?.dispose();
+    for (const drawn of this.moving) {
+      drawn.material?.dispose();
+      drawn.plain?.dispose();
+      drawn.outlined?.dispose();
     }
     this.outline?.dispose();
   }

@@ -24,6 +24,14 @@ const constants = (kind, part, drawn) => {
     add("EI₂, EI₃", `${spelled(part.stiffness[4], 4)}, ${spelled(part.stiffness[5], 4)} N m²`);
     if (drawn?.isThickened) add("drawn", "thicker than it is");
   }
+  if (kind === "shell") {
+    const [least, most] = [Math.min(...part.thickness), Math.max(...part.thickness)];
+    add("area", `${spelled(part.area, 5)} m²`);
+    add("thickness", most > least ? `${spelled(least, 4)} to ${spelled(most, 4)} m` : `${spelled(most, 5)} m`);
+    add("elements", String(part.elements.length));
+    add("nodes", String(part.nodes.length));
+    if (!part.is_homogeneous) add("section", "of layers");
+  }
   if (part.mass !== undefined) add("mass", `${spelled(part.mass, 5)} kg`);
   if (part.inertia) add("inertia", `${vector([0, 1, 2].map((k) => part.inertia[k][k]))} kg m²`);
   if (drawn?.isShrunk) add("drawn", "smaller than its inertia");
@@ -82,7 +90,7 @@ export class Panel {
     const { kinematics } = this.model;
     const anchor = this.model.anchorOf(name);
     if (anchor) {
-      const where = kind === "beam" ? "middle at" : "at";
+      const where = kind === "beam" || kind === "shell" ? "middle at" : "at";
       const cells = { place: row(`${where} [m]`, ""), speed: row("node's speed", "") };
       this.cells.push(() => {
         cells.place.textContent = vector(kinematics.point(anchor));
@@ -106,7 +114,8 @@ export class Panel {
   /** Boxes for how a part is shown. */
   switches(name, kind) {
     const now = this.styleOf(name);
-    const boxes = [["isHidden", "hide"], ["isTransparent", "transparent"], ["hasInitial", "initial shape"], ...(kind === "beam" ? [["hasAxes", "section axes"]] : [])].map(([key, text]) => {
+    const own = { beam: [["hasAxes", "section axes"]], shell: [["hasEdges", "elements"]] };
+    const boxes = [["isHidden", "hide"], ["isTransparent", "transparent"], ["hasInitial", "initial shape"], ...(own[kind] ?? [])].map(([key, text]) => {
       const box = element("input", { type: "checkbox", checked: Boolean(now[key]) });
       box.addEventListener("change", () => this.style(name, { ...this.styleOf(name), [key]: box.checked }));
       return element("label", {}, box, text);

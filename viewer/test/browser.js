@@ -15,6 +15,7 @@ import { live } from "./live.js";
 import { parts } from "./parts.js";
 import { plots } from "./plots.js";
 import { shapes } from "./shapes.js";
+import { shells } from "./shells.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
@@ -208,6 +209,7 @@ const tests = {
   ...plots({ program, root, folder, view, open }),
   ...parts({ root, folder, view, open }),
   ...shapes({ folder, view, open }),
+  ...shells({ folder, view, open, comparePlaces, plays, draws, selects }),
   ...live({ program, folder }),
   ...examples({ root, folder, view, open }),
   "a mechanism of beams": async (browser) => {

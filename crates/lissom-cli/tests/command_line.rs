@@ -22,6 +22,7 @@ mod parts;
 mod path;
 mod plot;
 mod redundancy;
+mod shell_pictures;
 mod silent;
 mod snapshot;
 mod statics;

@@ -102,6 +102,8 @@ tables! {
     BeamId: Beams = "beams", "beam";
     /// A rigid body.
     BodyId: Bodies = "bodies", "body";
+    /// A shell.
+    ShellId: Shells = "shells", "shell";
     /// A point mass.
     PointMassId: PointMasses = "point_masses", "point mass";
     /// A superelement.

@@ -13,6 +13,7 @@ mod published;
 mod rotors;
 mod schemes;
 mod sessions;
+mod shells;
 mod signals;
 mod springs;
 mod statics;

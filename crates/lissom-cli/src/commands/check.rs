@@ -92,6 +92,7 @@ impl Check {
             "bodies": document.bodies.len(),
             "point_masses": document.point_masses.len(),
             "beams": document.beams.len(),
+            "shells": document.shells.len(),
             "superelements": document.superelements.len(),
             "elements": document.beams.iter().map(|beam| beam.elements.value).sum::<usize>(),
             "nodes": layout.node_count() - 1,
@@ -162,12 +163,20 @@ fn render(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility
 
 fn parts(document: &Document, lowered: &Lowered) -> String {
     let elements: usize = document.beams.iter().map(|beam| beam.elements.value).sum();
+    let shells = match document.shells.len() {
+        0 => String::new(),
+        number => {
+            let elements: usize = document.shells.iter().map(|shell| shell.mesh.elements.len()).sum();
+            let shells = count(number, "shell", "shells");
+            format!("{shells} of {}, ", count(elements, "quadrilateral", "quadrilaterals"))
+        }
+    };
     let superelements = match document.superelements.len() {
         0 => String::new(),
         number => format!("{}, ", count(number, "superelement", "superelements")),
     };
     format!(
-        "{}, {}, {} of {}, {superelements}{}",
+        "{}, {}, {} of {}, {shells}{superelements}{}",
         count(document.bodies.len(), "body", "bodies"),
         count(document.point_masses.len(), "point mass", "point masses"),
         count(document.beams.len(), "beam", "beams"),

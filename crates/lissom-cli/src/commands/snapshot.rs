@@ -7,7 +7,7 @@ use lissom::model::files;
 use lissom::model::output::{DrawingError, Format};
 use lissom::model::scene::Scene;
 use lissom::motion::Motion;
-use lissom::pictures::picture::{Picture, PictureError, RecordedForces, View, instants};
+use lissom::pictures::picture::{Field, Picture, PictureError, RecordedForces, View, instants};
 use lissom::{FolderError, Override, RecordedModes, ResultFolder};
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
@@ -75,6 +75,10 @@ pub(super) struct Snapshot {
     #[arg(long, conflicts_with_all = ["initial", "mode"])]
     forces: bool,
 
+    /// Colour shells by a quantity, with a scale.
+    #[arg(long, value_enum, conflicts_with_all = ["initial", "mode"])]
+    colour: Option<Colour>,
+
     /// Draw the initial state of the model, without simulating it.
     #[arg(long, conflicts_with_all = ["at", "strip"])]
     initial: bool,
@@ -107,6 +111,33 @@ enum From {
     Side,
     /// Against the global axis z.
     Top,
+}
+
+/// Quantities by which shells are coloured, on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Colour {
+    /// Distance from the stress-free position.
+    Displacement,
+    /// Von Mises stress on the side of the normal.
+    MisesTop,
+    /// Von Mises stress in the middle of the thickness.
+    MisesMiddle,
+    /// Von Mises stress on the other side.
+    MisesBottom,
+    /// Strain energy per area.
+    Energy,
+}
+
+impl Colour {
+    fn field(self) -> Field {
+        match self {
+            Self::Displacement => Field::Displacement,
+            Self::MisesTop => Field::StressTop,
+            Self::MisesMiddle => Field::StressMiddle,
+            Self::MisesBottom => Field::StressBottom,
+            Self::Energy => Field::Energy,
+        }
+    }
 }
 
 impl Snapshot {
@@ -163,6 +194,11 @@ impl Snapshot {
     fn of_folder(&self, folder: &Path, is_png: bool) -> Result<(), Failure> {
         let foreign = |error: FolderError| Failure::new(Exit::BadModel, &error);
         if ResultFolder::holds_modes(folder) {
+            if self.colour.is_some() {
+                let message =
+                    "shapes of natural modes have no magnitude: `--colour` needs results of `lissom run`";
+                return Err(Failure::request(message));
+            }
             return self.of_modes(&ResultFolder::recorded_modes(folder).map_err(foreign)?, folder, is_png);
         }
         if self.mode.is_some() {
@@ -171,6 +207,11 @@ impl Snapshot {
             return Err(Failure::request(message));
         }
         let run = ResultFolder::recorded(folder).map_err(foreign)?;
+        if self.colour.is_some_and(|colour| !colour.field().is_in(&run.scene)) {
+            let message =
+                "`--colour` applies to shells, its stresses to those of one layer: the model has none";
+            return Err(Failure::request(message));
+        }
         let forces =
             if self.forces { RecordedForces::of(&run.scene, &run.record) } else { RecordedForces::default() };
         if self.forces && forces.most() == 0.0 {
@@ -247,7 +288,8 @@ impl Snapshot {
         } else {
             self.at.clone()
         };
-        self.write(&Picture { times, forces, ..self.picture() }, (scene, motion, title), target)
+        let field = self.colour.map(Colour::field);
+        self.write(&Picture { times, forces, field, ..self.picture() }, (scene, motion, title), target)
     }
 
     fn write(

@@ -81,7 +81,7 @@ fn arrays_hold_the_table_with_its_units() {
 }
 
 /// The two parts of a binary glTF file.
-fn parts(file: &Path) -> (Value, Vec<u8>) {
+pub(crate) fn parts(file: &Path) -> (Value, Vec<u8>) {
     let bytes = fs::read(file).unwrap();
     assert_eq!((&bytes[..4], u32::from_le_bytes(number(&bytes, 4))), (&b"glTF"[..], 2));
     assert_eq!(u32::from_le_bytes(number(&bytes, 8)) as usize, bytes.len());
@@ -160,6 +160,15 @@ fn animations_move_as_the_motion_does() {
     assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
 }
 
+/// The bytes of an array of a file of a series.
+pub(crate) fn series_content(grid: &str, name: &str) -> Vec<u8> {
+    let (_, rest) = grid.split_once(&format!("Name=\"{name}\"")).unwrap();
+    let (_, rest) = rest.split_once('>').unwrap();
+    let bytes = crate::command_line::view::decoded(rest.split_once('<').unwrap().0);
+    assert_eq!(u64::from_le_bytes(number(&bytes, 0)) as usize, bytes.len() - 8, "{name}");
+    bytes[8..].to_vec()
+}
+
 #[test]
 fn series_hold_sections_with_their_forces() {
     let folder = Folder::new("export-vtk");
@@ -175,13 +184,7 @@ fn series_hold_sections_with_their_forces() {
     assert!(series.contains("timestep=\"1\" file=\"motion-0004.vtu\""), "{series}");
     assert!(read("parts.csv").starts_with("number,name,role\n0,bar,beam\n"));
     let grid = read("motion-0004.vtu");
-    let content = |name: &str| -> Vec<u8> {
-        let (_, rest) = grid.split_once(&format!("Name=\"{name}\"")).unwrap();
-        let (_, rest) = rest.split_once('>').unwrap();
-        let bytes = crate::command_line::view::decoded(rest.split_once('<').unwrap().0);
-        assert_eq!(u64::from_le_bytes(number(&bytes, 0)) as usize, bytes.len() - 8, "{name}");
-        bytes[8..].to_vec()
-    };
+    let content = |name: &str| series_content(&grid, name);
     let doubles: Vec<f64> =
         content("points").chunks(8).map(|chunk| f64::from_le_bytes(number(chunk, 0))).collect();
     let moments: Vec<f32> =

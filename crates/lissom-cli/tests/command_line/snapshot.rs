@@ -4,7 +4,7 @@ use std::fs;
 
 use lissom::core::motion::Vector3;
 use lissom::pictures::geometry::{Geometry, Role, poses_at};
-use lissom::pictures::picture::{Projection, RecordedForces, View, painted};
+use lissom::pictures::picture::{Paint, Projection, RecordedForces, View, painted};
 use lissom::{Record, ResultFolder};
 
 use crate::support::{CANTILEVER, Folder, example, lissom};
@@ -222,7 +222,7 @@ fn what_is_drawn_lies_where_the_table_says() {
             let time = table.times[row];
             let place = Vector3::from(["x", "y", "z"].map(|name| table.column("bob", name).unwrap()[row]));
             let poses = poses_at(&run.motion, time).unwrap();
-            let seen = painted(&geometry, &projection, &poses, time);
+            let seen = painted((&geometry, &Paint::default()), &projection, &poses, time);
             let expected = projection.flat(&place);
             // The middle of the disc that a ball is seen as.
             for k in 0..2 {

@@ -6,12 +6,15 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::entries::each;
 use super::places::PlaceOrNode;
-use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station, Superelement, interface_name};
+use super::{
+    Beam, Body, DistributedForce, NodeReference, PointMass, Shell, Station, Superelement, interface_name,
+};
 use crate::expression::Expression;
 use crate::format::keys::Shape;
 use crate::line::Line;
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
+use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
@@ -35,11 +38,14 @@ enum Form {
     Curve(Box<[Expression; 3]>),
 }
 
+/// Positions of parts whose nodes beams may share, and shells.
+type Fixed<'f> = (&'f BTreeMap<String, Vector3>, &'f BTreeMap<&'f str, &'f ShellMesh>);
+
 pub(super) fn beams(
     context: &Context<'_>,
     bodies: &[Body],
     point_masses: &[PointMass],
-    superelements: &[Superelement],
+    (shells, superelements): (&[Shell], &[Superelement]),
 ) -> Vec<Beam> {
     let drafts: Vec<Draft> = each(context, "beams", |reader, name| {
         let form = form(reader, name);
@@ -77,7 +83,8 @@ pub(super) fn beams(
             fixed.extend(element.place_of(&own.name).map(|place| (interface_name(name, &own.name), place)));
         }
     }
-    place(context, drafts, &fixed)
+    let shells = shells.iter().map(|shell| (shell.name.value.as_str(), &*shell.mesh)).collect();
+    place(context, drafts, (&fixed, &shells))
 }
 
 fn form(reader: &Reader<'_, '_>, name: &str) -> Option<Form> {
@@ -188,7 +195,7 @@ impl Context<'_> {
 }
 
 /// Determines the lines of beams whose ends are known, until none is left. The remaining ones depend on each other in a cycle.
-fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String, Vector3>) -> Vec<Beam> {
+fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: Fixed<'_>) -> Vec<Beam> {
     let order: BTreeMap<String, usize> =
         drafts.iter().enumerate().map(|(index, draft)| (draft.name.value.clone(), index)).collect();
     let mut lines: BTreeMap<String, Option<Line>> = BTreeMap::new();
@@ -240,7 +247,7 @@ fn line(
     context: &Context<'_>,
     draft: &Draft,
     lines: &BTreeMap<String, Option<Line>>,
-    fixed: &BTreeMap<String, Vector3>,
+    (fixed, shells): Fixed<'_>,
 ) -> Option<Line> {
     let what = format!("beam `{}`", draft.name.value);
     let at = |end: &PlaceOrNode| match end {
@@ -251,6 +258,7 @@ fn line(
             NodeReference::Interface { superelement, interface } => {
                 fixed.get(&interface_name(superelement, interface)).copied()
             }
+            NodeReference::Shell { shell, place } => shells.get(shell.as_str())?.position_of(place),
             NodeReference::Beam { beam, fraction } => {
                 lines.get(beam)?.as_ref().map(|line| line.position(*fraction))
             }

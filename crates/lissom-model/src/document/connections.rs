@@ -1,6 +1,7 @@
 //! Checks across tables: positions of nodes, connectivity, and functions that fail during the analysis.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
 
 use lissom_motion::Vector3;
 
@@ -8,20 +9,22 @@ use super::entries::PARTS;
 use super::plausibility;
 use super::{
     AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputKind,
-    OutputSource, PointMass, Subject, Superelement, interface_name,
+    OutputSource, PointMass, Shell, Subject, Superelement, interface_name,
 };
 use crate::line::Line;
 use crate::parts::context::Context;
+use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Located, Problem, Span};
 
 /// Where the nodes of the parts are.
 pub(super) struct Places {
     points: BTreeMap<String, Vector3>,
     lines: BTreeMap<String, Line>,
+    shells: BTreeMap<String, Arc<ShellMesh>>,
 }
 
 pub(super) fn places(
-    (beams, superelements): (&[Beam], &[Superelement]),
+    (beams, shells, superelements): (&[Beam], &[Shell], &[Superelement]),
     bodies: &[Body],
     point_masses: &[PointMass],
 ) -> Places {
@@ -32,13 +35,18 @@ pub(super) fn places(
         let place = |name: &str| Some((interface_name(&element.name.value, name), element.place_of(name)?));
         element.interfaces.iter().filter_map(move |interface| place(&interface.name))
     });
-    Places { points: bodies.chain(masses).chain(interfaces).collect(), lines }
+    Places {
+        points: bodies.chain(masses).chain(interfaces).collect(),
+        lines,
+        shells: shells.iter().map(|shell| (shell.name.value.clone(), Arc::clone(&shell.mesh))).collect(),
+    }
 }
 
 impl Places {
     /// Positions of all nodes but those of beams.
     pub(super) fn all(&self) -> impl Iterator<Item = Vector3> + '_ {
-        self.points.values().copied()
+        let shells = self.shells.values().flat_map(|mesh| mesh.positions.iter().copied());
+        self.points.values().copied().chain(shells)
     }
 
     /// Position of a node; the origin for the ground.
@@ -49,6 +57,7 @@ impl Places {
             NodeReference::Beam { beam, fraction } => {
                 self.lines.get(beam).map(|line| line.position(*fraction))
             }
+            NodeReference::Shell { shell, place } => self.shells.get(shell)?.position_of(place),
             NodeReference::Interface { superelement, interface } => {
                 self.points.get(&interface_name(superelement, interface)).copied()
             }
@@ -224,6 +233,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("sections", document.sections.len()),
         ("points", document.points.len()),
         ("beams", document.beams.len()),
+        ("shells", document.shells.len()),
         ("bodies", document.bodies.len()),
         ("point_masses", document.point_masses.len()),
         ("superelements", document.superelements.len()),
@@ -294,6 +304,7 @@ pub(super) fn part_of(node: &NodeReference) -> &str {
         NodeReference::Ground => GROUND,
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,
         NodeReference::Beam { beam, .. } => beam,
+        NodeReference::Shell { shell, .. } => shell,
         NodeReference::Interface { superelement, .. } => superelement,
     }
 }
@@ -321,6 +332,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         }
     }
     let parts: Vec<&Located<String>> = (document.beams.iter().map(|beam| &beam.name))
+        .chain(document.shells.iter().map(|shell| &shell.name))
         .chain(document.bodies.iter().map(|body| &body.name))
         .chain(document.point_masses.iter().map(|mass| &mass.name))
         .chain(document.superelements.iter().map(|element| &element.name))

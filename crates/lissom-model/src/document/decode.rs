@@ -11,7 +11,7 @@ use super::entries::PARTS;
 use super::tables::variants;
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, events, initial,
-    local_loads, materials, outputs, signals, superelements,
+    local_loads, materials, outputs, shells, signals, superelements,
 };
 use crate::expression;
 use crate::files::library::Library;
@@ -83,9 +83,10 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let sections = materials::sections(context, registry, &materials);
     let bodies = bodies::bodies(context);
     let point_masses = bodies::point_masses(context);
+    let shells = shells::shells(context, &materials);
     let superelements = superelements::superelements(context);
-    let beams = beams::beams(context, &bodies, &point_masses, &superelements);
-    let places = connections::places((&beams, &superelements), &bodies, &point_masses);
+    let beams = beams::beams(context, &bodies, &point_masses, (&shells, &superelements));
+    let places = connections::places((&beams, &shells, &superelements), &bodies, &point_masses);
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
@@ -112,6 +113,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         sections,
         points,
         beams,
+        shells,
         bodies,
         point_masses,
         superelements,
@@ -212,7 +214,7 @@ fn check_words(context: &Context<'_>) {
     if !has_free && PARTS.iter().all(|table| context.entries(table).is_empty()) {
         let problem = Problem::error(
             Span::default(),
-            "the model is empty: it has no beam, body, point mass or superelement",
+            "the model is empty: it has no beam, shell, body, point mass or superelement",
         );
         context.report(problem.help("add for example a table [bodies.top] with mass and inertia"));
     }
@@ -251,7 +253,8 @@ fn check_names(context: &Context<'_>) {
                 let message = format!("the {} `{name}` has the name of a {other}", singular(table));
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
                 context.report(
-                    problem.help("beams, bodies, point masses and superelements need different names"),
+                    problem
+                        .help("beams, shells, bodies, point masses and superelements need different names"),
                 );
             }
             if context.instances.contains_key(name) {

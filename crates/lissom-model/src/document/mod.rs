@@ -24,6 +24,7 @@ mod places;
 mod plausibility;
 mod ports;
 mod rigid_contacts;
+mod shells;
 mod signals;
 mod solids;
 mod superelements;
@@ -60,6 +61,8 @@ pub use contacts::{CompliantEntry, ContactEntry, ContactLaw, Ground, Restitution
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
+pub(crate) use shells::area_arguments;
+pub use shells::{AreaLoad, Layer, Shell};
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
 
 /// A model as it was written, checked.
@@ -100,6 +103,8 @@ pub struct Document {
     pub points: BTreeMap<String, Vector3>,
     /// Flexible beams.
     pub beams: Vec<Beam>,
+    /// Shells.
+    pub shells: Vec<Shell>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
     /// Point masses.
@@ -193,7 +198,12 @@ impl Document {
         self.beams.iter().find(|beam| beam.name.value == name)
     }
 
-    /// Position of a node at the start [m]; the ground's is the origin.
+    /// The shell called `name`.
+    pub fn shell(&self, name: &str) -> Option<&Shell> {
+        self.shells.iter().find(|shell| shell.name.value == name)
+    }
+
+    /// Position of a node at the start [m]; the ground's is the origin, that of several nodes their mean.
     pub fn node_position(&self, node: &NodeReference) -> Option<Vector3> {
         match node {
             NodeReference::Ground => Some(Vector3::zeros()),
@@ -206,6 +216,7 @@ impl Document {
             NodeReference::Beam { beam, fraction } => {
                 self.beam(beam).map(|beam| beam.line.position(*fraction))
             }
+            NodeReference::Shell { shell, place } => self.shell(shell)?.mesh.position_of(place),
             NodeReference::Interface { superelement, interface } => {
                 let found = self.superelements.iter().find(|own| own.name.value == *superelement)?;
                 found.place_of(interface)

@@ -6,6 +6,7 @@ use super::NodeReference;
 use super::entries::PARTS;
 use crate::format::suggest;
 use crate::parts::context::Context;
+use crate::reading::node_reference::ShellPlace;
 use crate::text::Node;
 use crate::text::ScopeId;
 use crate::text::Value;
@@ -87,8 +88,9 @@ impl Context<'_> {
             let element = full.rsplit_once('.').map(|(element, _)| element);
             full == "ground"
                 || is_there(full)
-                || beam.is_some_and(|beam| self.has("beams", beam))
-                || element.is_some_and(|element| self.has("superelements", element))
+                || beam.is_some_and(|beam| self.has("beams", beam) || self.has("shells", beam))
+                || element
+                    .is_some_and(|element| self.has("superelements", element) || self.has("shells", element))
         })
     }
 
@@ -112,6 +114,9 @@ impl Context<'_> {
             let help = "use one of the nodes that it connects; quantities of a joint are recorded by outputs of the kinds `relative` and \
                         `reaction`";
             return self.fail(span, message, help);
+        }
+        if self.is_of_shell(text) {
+            return self.shell_node(text, span, what);
         }
         if let Some((superelement, interface)) = self.interface_in(text) {
             return self.interface((superelement, interface), span, what);
@@ -153,11 +158,45 @@ impl Context<'_> {
         for (beam, _) in self.names("beams") {
             names.extend([format!("{beam}.start"), format!("{beam}.end")]);
         }
+        for (shell, _) in self.names("shells") {
+            names.extend(["west", "east", "south", "north"].map(|side| format!("{shell}.{side}")));
+        }
         for (element, _) in self.names("superelements") {
             names.extend(self.interface_names(element).map(|interface| format!("{element}.{interface}")));
         }
         names
     }
+    /// Whether a text names a shell or nodes of one.
+    fn is_of_shell(&self, text: &str) -> bool {
+        let shell = text.split_once('@').or(text.rsplit_once('.')).map_or(text, |(shell, _)| shell);
+        self.has("shells", text) || self.has("shells", shell)
+    }
+
+    /// A node or set of nodes of a shell.
+    fn shell_node(&self, text: &str, span: Span, what: &str) -> Option<NodeReference> {
+        let reference = |shell: &str, place| Some(NodeReference::Shell { shell: shell.to_owned(), place });
+        let help = |shell: &str| {
+            format!(
+                "say which nodes: \"{shell}@0.5,1\" at u and v from 0 to 1, a side as \"{shell}.west\", or one of its `sets`"
+            )
+        };
+        if self.has("shells", text) {
+            let message = format!("{what} names the shell `{text}`, which is a surface, not a node");
+            return self.fail(span, message, help(text));
+        }
+        if let Some((shell, fractions)) = text.split_once('@') {
+            let number = |text: &str| text.trim().parse::<f64>().ok().filter(|u| (0.0..=1.0).contains(u));
+            let both = fractions.split_once(',').and_then(|(u, v)| Some([number(u)?, number(v)?]));
+            let Some(both) = both else {
+                let message = format!("{what} names `{text}`, which is no position on the shell `{shell}`");
+                return self.fail(span, message, help(shell));
+            };
+            return reference(shell, ShellPlace::Fractions(both));
+        }
+        let (shell, set) = text.rsplit_once('.')?;
+        reference(shell, ShellPlace::Set(set.to_owned()))
+    }
+
     /// The superelement and the interface of a name of this form.
     fn interface_in<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
         if self.has("superelements", text) {

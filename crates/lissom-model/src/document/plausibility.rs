@@ -25,7 +25,8 @@ const DEGREES: [f64; 8] = [45.0, 90.0, 180.0, 360.0, 720.0, 1080.0, 1800.0, 3600
 
 /// Warns of what is improbable.
 pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
-    let doubts = [units, inertias, joints, degrees].into_iter().flat_map(|find| find(document, places));
+    let doubts =
+        [units, inertias, joints, degrees, single_nodes].into_iter().flat_map(|find| find(document, places));
     for (span, message, help) in doubts {
         context.report(Problem::warning(span, message).help(help));
     }
@@ -35,6 +36,30 @@ pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places)
         let message = format!("gravity is {} m/s²", document.gravity.norm());
         context.report(Problem::warning(gravity.span, message).help("write it in m/s², and lengths in m"));
     }
+}
+
+/// Clamps and moments at one node of a shell: a moment about the normal meets little resistance there, and less in a finer mesh.
+fn single_nodes(document: &Document, _: &Places) -> Vec<Doubt> {
+    let turns = |component: &&Component| matches!(component.kind.value.as_str(), "clamp" | "moment");
+    let all = document.joints.iter().chain(&document.loads).filter(turns);
+    let doubt = |component: &Component| {
+        let is_shell = |node: &NodeReference| matches!(node, NodeReference::Shell { .. });
+        let nodes = component.attachment.nodes.iter().map(|own| &own.node);
+        let own = nodes.clone().find(|own| is_shell(&own.value))?;
+        let NodeReference::Shell { shell, place } = &own.value else { return None };
+        let is_other = nodes.filter(|own| is_shell(&own.value)).count() == 1;
+        let is_single =
+            document.shell(shell)?.mesh.nodes_at(shell, place).is_ok_and(|nodes| nodes.len() == 1);
+        (is_other && is_single).then(|| {
+            let message = format!(
+                "`{}` acts on one node of shell `{shell}`, which hardly resists a moment about its normal there",
+                component.name.value
+            );
+            let help = "name a set of nodes as large as the real part: `sets = { foot = { center = [x, y, z], radius = r } }`";
+            (own.span, message, help.to_owned())
+        })
+    };
+    all.filter_map(doubt).collect()
 }
 
 /// What is doubtful: where, why, and what is probably meant.

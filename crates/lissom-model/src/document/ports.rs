@@ -10,6 +10,7 @@ use crate::expression::Formula;
 use crate::format::keys::Shape;
 use crate::line::are_parallel;
 use crate::parts::context::Context;
+use crate::reading::node_reference::ShellPlace;
 use crate::reading::reader::Reader;
 use crate::text::ScopeId;
 use crate::text::report::{Located, Problem};
@@ -32,7 +33,7 @@ pub(super) fn read(
             // With a missing node its own error is enough.
             PortType::Location { .. } if !is_complete => None,
             PortType::Location { of, default } => location(reader, key, (ports, default), &own.nodes, places)
-                .map(|at| of.iter().for_each(|key| own.nodes[ports.node(key)].at = Some(at))),
+                .map(|at| of.iter().for_each(|key| own.nodes[ports.node(key)].at = at.place())),
             PortType::Direction(default) => {
                 direction(reader, key, (ports, default), &own.axes).map(|direction| own.axes.push(direction))
             }
@@ -83,6 +84,22 @@ pub(super) fn two_nodes(reader: &Reader<'_, '_>) -> Option<[Located<NodeReferenc
     Some(<[NodeLocation; 2]>::try_from(nodes).ok()?.map(|own| own.node))
 }
 
+/// Where something is attached.
+enum LocatedAt {
+    Place(Vector3),
+    /// At each node of a set.
+    EachNode,
+}
+
+impl LocatedAt {
+    fn place(&self) -> Option<Vector3> {
+        match self {
+            Self::Place(place) => Some(*place),
+            Self::EachNode => None,
+        }
+    }
+}
+
 /// The location of a key, or that of the first node of `default` that is not the ground.
 fn location(
     reader: &Reader<'_, '_>,
@@ -90,14 +107,17 @@ fn location(
     (ports, default): (Ports, &[&str]),
     nodes: &[NodeLocation],
     places: &Places,
-) -> Option<Vector3> {
+) -> Option<LocatedAt> {
     if let Some(place) = reader.node(key) {
-        return reader.context.place(place, &reader.words(key)).map(|place| place.value);
+        return reader.context.place(place, &reader.words(key)).map(|place| LocatedAt::Place(place.value));
     }
     let mut all = default.iter().map(|key| &nodes[ports.node(key)].node.value);
     let first = all.clone().next()?;
     let node = all.find(|node| **node != NodeReference::Ground).unwrap_or(first);
-    own_place(reader.context, reader.scope, node, places)
+    if matches!(node, NodeReference::Shell { place: ShellPlace::Set(_), .. }) {
+        return Some(LocatedAt::EachNode);
+    }
+    own_place(reader.context, reader.scope, node, places).map(LocatedAt::Place)
 }
 
 /// Nodes in a sequence, each with its location.

@@ -78,6 +78,20 @@ pub(crate) enum Shape {
     Distribution,
     /// Three numbers or expressions of `s` and `t`, in the axes of the section.
     SectionDistribution,
+    /// Four positions.
+    Corners,
+    /// Three numbers or expressions of `u` and `v`, in global axes; those of the part inside of one.
+    Surface,
+    /// Two whole numbers.
+    Divisions,
+    /// A number, or an expression of `u` and `v`.
+    Thickness,
+    /// A number, or an expression of `u`, `v` and `t`.
+    AreaSize,
+    /// Three of them, in global axes; those of the part inside of one.
+    AreaDistribution,
+    /// A list of layers.
+    Plies,
     /// Two axes of a frame, in the axes around it.
     Axes,
     /// Rotation vector of a frame, in the axes around it.
@@ -167,6 +181,9 @@ impl Shape {
                 | Self::Places
                 | Self::Curve
                 | Self::Distribution
+                | Self::Corners
+                | Self::Surface
+                | Self::AreaDistribution
                 | Self::Axes
                 | Self::Rotation
         )
@@ -283,6 +300,30 @@ impl Shape {
             Self::Curve => row("three expressions of `s`", vector(), Fixed("[Expression; 3]"), "Vector"),
             Self::Distribution | Self::SectionDistribution => {
                 row("three expressions of `s` and `t`", vector(), Fixed("[Expression; 3]"), "Vector")
+            }
+            Self::Corners => {
+                let place = any_of(&[text(), vector()]);
+                row("four positions", list(&place, 4), Fixed("[[f64; 3]; 4]"), "list[Place]")
+            }
+            Self::Surface => {
+                row("three expressions of `u` and `v`", vector(), Fixed("[Expression; 3]"), "Vector")
+            }
+            Self::Divisions => {
+                let count = number_in(&json!({ "type": "integer", "minimum": 1 }));
+                row("two whole numbers", list(&count, 2), Fixed("[f64; 2]"), "Vector")
+            }
+            Self::Thickness => {
+                row("a number or an expression of `u` and `v`", number(), Fixed("Expression"), "Number")
+            }
+            Self::AreaSize => {
+                row("a number or an expression of `u`, `v` and `t`", number(), Fixed("Expression"), "Number")
+            }
+            Self::AreaDistribution => {
+                row("three expressions of `u`, `v` and `t`", vector(), Fixed("[Expression; 3]"), "Vector")
+            }
+            Self::Plies => {
+                let schema = list_of(schema_of_keys(&Self::ply_keys()), 1);
+                row("a list of layers", schema, Absent, "list[Table]")
             }
             Self::Axes => row("two vectors", list(&vector(), 2), Fixed("[[f64; 3]; 2]"), "list[Vector]"),
             Self::Mass => {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lissom_mechanics::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
 use lissom_mechanics::joints::{self, JointKind};
-use lissom_mechanics::kinematics::{Quantity, Subject};
+use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_mechanics::signals::Argument;
 use lissom_system::{Builder, JointAttachment, PlaceOnTip};
@@ -14,7 +14,7 @@ use super::contact_set;
 use super::names::{Names, parameter_problem};
 use super::order::by_name;
 use super::ports;
-use crate::document::{Component, ContactLaw, Document, NodeLocation, OnTip};
+use crate::document::{Component, ContactLaw, Document, OnTip};
 use crate::functions::Ramp;
 use crate::text::report::Problem;
 
@@ -111,14 +111,36 @@ fn joint(
         Some((coordinates, parameters)) => (coordinates, Cow::Owned(parameters)),
         None => (ports::coordinates(component, builder, names)?, Cow::Borrowed(&component.parameters)),
     };
-    let node = |own: &NodeLocation| Ok((names.node(&own.node)?, own.at));
-    let nodes = component.attachment.nodes.iter().map(node).collect::<Result<Vec<_>, Problem>>()?;
-    if let [(base, _), (tip, _)] = nodes[..]
-        && base == tip
-    {
-        return Err(Problem::error(component.name.span, format!("joint `{name}` joins a node with itself"))
-            .help("beams that share a node are joined already"));
+    let mut all = Vec::new();
+    let sets = ports::of_sets(component, builder, names)?;
+    if sets.len() > 1 {
+        names.joints_of_sets.insert(name.clone(), sets.len());
     }
+    for nodes in sets {
+        if let [(base, _), (tip, _)] = nodes[..]
+            && base == tip
+        {
+            let message = format!("joint `{name}` joins a node with itself");
+            return Err(Problem::error(component.name.span, message)
+                .help("beams that share a node are joined already"));
+        }
+        let place = (nodes, coordinates.clone());
+        all.extend(joint_between(document, (component, kind), place, &parameters, (builder, names))?);
+    }
+    // A relation has no coordinates.
+    if !kind.ports.relate_coordinates() {
+        names.coordinates.insert(name.clone(), all);
+    }
+    Ok(())
+}
+
+fn joint_between(
+    document: &Document,
+    (component, kind): (&Component, &JointKind),
+    (nodes, coordinates): (ports::NodesOfJoint, Vec<CoordinateId>),
+    parameters: &Parameters,
+    (builder, names): (&mut Builder, &Names),
+) -> Result<Vec<CoordinateId>, Problem> {
     let on_tip = component.on_tip.as_ref().map(|place| &place.value);
     let attachment = JointAttachment {
         nodes,
@@ -127,14 +149,9 @@ fn joint(
         coordinates,
         beams: ports::beam_chain(document, component, builder, names)?,
     };
-    let added = builder
-        .add_joint_of_kind(name, kind, attachment, &parameters)
-        .map_err(|error| parameter_problem(component, &error))?;
-    // A relation has no coordinates.
-    if !kind.ports.relate_coordinates() {
-        names.coordinates.insert(name.clone(), added);
-    }
-    Ok(())
+    builder
+        .add_joint_of_kind(&component.name.value, kind, attachment, parameters)
+        .map_err(|error| parameter_problem(component, &error))
 }
 
 /// Adds the friction of a joint with one coordinate.
@@ -168,11 +185,14 @@ fn element(
     (builder, names): (&mut Builder, &mut Names),
     ramp: Option<(f64, f64)>,
 ) -> Result<(), Problem> {
+    if let Some(spread) = ports::spread(component, builder, names)? {
+        return spread_load(document, (component, kind), spread, (builder, names), ramp);
+    }
     let attached = ports::attached(component, builder, names)?;
     let coordinate = kind.ports.quantity().and_then(|_| attached.coordinates.first().copied());
     // A size that depends on the motion is no constant load.
     let ramp = ramp.filter(|_| component.signal.is_none());
-    let ramped = ramp.and_then(|span| ramped(kind, &component.parameters, span));
+    let ramped = ramp.and_then(|span| ramped_parameters(kind, &component.parameters, span));
     let parameters = ramped.as_ref().unwrap_or(&component.parameters);
     let with_inputs = with_inputs(kind, parameters, component, names)?;
     let parameters = with_inputs.as_ref().unwrap_or(parameters);
@@ -200,6 +220,45 @@ fn element(
     Ok(())
 }
 
+/// Adds a force or a moment on a set of nodes, to each its share.
+fn spread_load(
+    document: &Document,
+    (component, kind): (&Component, &ElementKind),
+    spread: Vec<(Attached, f64)>,
+    (builder, names): (&mut Builder, &mut Names),
+    ramp: Option<(f64, f64)>,
+) -> Result<(), Problem> {
+    let fault = |error| parameter_problem(component, &error);
+    let Ok(whole) = component.parameters.vector("vector") else {
+        let message = format!("`{}` cannot act on a set of nodes", component.name.value);
+        let help = "forces and moments are spread over sets; name one node, or clamp a body to the set";
+        return Err(Problem::error(component.name.span, message).help(help));
+    };
+    let ramped = ramp.filter(|_| component.signal.is_none());
+    let ramped = ramped.and_then(|span| ramped_parameters(kind, &component.parameters, span));
+    let mut parameters = ramped.unwrap_or_else(|| component.parameters.clone());
+    let signal = match &component.signal {
+        None => None,
+        Some((key, formula)) => {
+            let subject = Subject::new("load", &component.name.value).component(&format!("`{key}`"));
+            Some(super::signals::add_formula(document, builder, names, &subject, formula)?)
+        }
+    };
+    for (attached, share) in spread {
+        parameters.insert("vector", Value::Vector(share * whole));
+        match signal {
+            None => {
+                builder.add_of_kind(kind, attached, &parameters).map_err(fault)?;
+            }
+            Some(signal) => {
+                let load = kind.contribution(builder.model(), attached, &parameters).map_err(fault)?;
+                builder.add_driven(signal, load);
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The parameters with inputs in the place of their names; none where no input is named.
 fn with_inputs(
     kind: &ElementKind,
@@ -220,7 +279,7 @@ fn with_inputs(
 }
 
 /// The parameters of a load with its constant sizes growing from nothing over `span` [s]; none where nothing changes.
-fn ramped(kind: &ElementKind, given: &Parameters, span: (f64, f64)) -> Option<Parameters> {
+fn ramped_parameters(kind: &ElementKind, given: &Parameters, span: (f64, f64)) -> Option<Parameters> {
     let mut parameters: Option<Parameters> = None;
     let holds_size =
         |parameter: &&Parameter| matches!(parameter.holds, ParameterType::Function | ParameterType::Size);

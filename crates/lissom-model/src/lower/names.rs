@@ -12,6 +12,7 @@ use super::signal_references::SignalReferences;
 use crate::document::Component;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
 use crate::outputs::local_load_points::LocalLoadPoints;
+use crate::outputs::shell_nodes::BuiltShell;
 use crate::outputs::{Deformed, Resolver};
 use crate::reading::node_reference::{NodeReference, interface_name};
 use crate::text::report::{Located, Problem};
@@ -27,12 +28,16 @@ pub struct Names {
     pub deformations: BTreeMap<String, Deformed>,
     /// Nodes and elements of each beam.
     pub lines: BTreeMap<String, BeamLine>,
+    /// Nodes and elements of each shell.
+    pub shells: BTreeMap<String, BuiltShell>,
     /// Joints in the order of the file.
     pub joints: Vec<String>,
     /// Inputs in the order of the file.
     pub inputs: Vec<String>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
+    /// Number of joints that a joint on a set of nodes stands for.
+    pub(super) joints_of_sets: BTreeMap<String, usize>,
     /// Springs that have an elongation, and whether it is a length or an angle.
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
     /// Index of each latch among the springs.
@@ -69,11 +74,27 @@ impl Names {
                 let name = interface_name(superelement, interface);
                 self.nodes.get(&name).copied().ok_or_else(|| unknown(&name))
             }
+            NodeReference::Shell { shell, .. } => {
+                self.shells.get(shell).ok_or_else(|| unknown(shell))?.one(reference)
+            }
             NodeReference::Beam { beam, fraction } => {
                 let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
                 line.node_at(*fraction).ok_or_else(|| no_node(reference, beam, line, *fraction))
             }
         }
+    }
+}
+
+impl Names {
+    /// All nodes a reference means: several for a set of a shell, otherwise one. With their shares of what is spread over them.
+    pub(super) fn nodes(&self, reference: &Located<NodeReference>) -> Result<Vec<(NodeId, f64)>, Problem> {
+        let NodeReference::Shell { shell, .. } = &reference.value else {
+            return Ok(vec![(self.node(reference)?, 1.0)]);
+        };
+        let Some(built) = self.shells.get(shell) else { return Ok(vec![(self.node(reference)?, 1.0)]) };
+        let indices = built.indices(reference)?;
+        let shares = built.mesh.shares(&indices);
+        Ok(indices.iter().zip(shares).map(|(&index, share)| (built.surface.nodes[index], share)).collect())
     }
 }
 
@@ -101,6 +122,7 @@ impl Names {
         Resolver {
             nodes: &self.nodes,
             lines: &self.lines,
+            shells: &self.shells,
             deformations: &self.deformations,
             coordinates: &self.coordinates,
             springs: &self.springs,

@@ -23,6 +23,7 @@ pub(super) fn add(
     bodies(document, builder, names);
     point_masses(document, builder, names);
     super::superelements::add(document, builder, names, problems);
+    super::shells::add(document, builder, names, problems);
     beams(document, builder, names, problems);
 }
 
@@ -80,6 +81,12 @@ pub(super) fn velocities(document: &Document, names: &Names, system: &System, at
     for element in &document.superelements {
         let name = &element.name.value;
         for &node in names.superelements.get(name).into_iter().flatten() {
+            set(node, &|frame| initial_motion(document.initial_motion(name), frame));
+        }
+    }
+    for shell in &document.shells {
+        let name = &shell.name.value;
+        for &node in names.shells.get(name).into_iter().flat_map(|shell| &shell.surface.nodes) {
             set(node, &|frame| initial_motion(document.initial_motion(name), frame));
         }
     }

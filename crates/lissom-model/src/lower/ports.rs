@@ -2,14 +2,15 @@
 
 use lissom_mechanics::elements::Attached;
 use lissom_mechanics::joints::slider::CarriedPoint;
-use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_mechanics::ports::PortType;
 use lissom_mechanics::signals::coordinate::Of;
 use lissom_motion::Vector3;
 use lissom_system::{BeamChain, Builder};
 
 use super::names::{Names, parameter_problem};
-use crate::document::{Beam, Component, CoordinateName, Document};
+use crate::document::{Beam, Component, CoordinateName, Document, NodeLocation};
+use crate::reading::node_reference::{NodeReference, ShellPlace};
 use crate::text::report::{Located, Problem};
 
 /// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: the line through their nodes is smooth.
@@ -24,6 +25,63 @@ pub(super) fn attached(component: &Component, builder: &Builder, names: &Names) 
         attached.nodes.push((node, own.at.map_or_else(Vector3::zeros, local)));
     }
     Ok(attached)
+}
+
+/// Nodes of a joint, each with its location; none for that of the node.
+pub(super) type NodesOfJoint = Vec<(NodeId, Option<Vector3>)>;
+
+/// Nodes with their locations, once for each joint that the component stands for: a joint of a set of nodes is one for each of them, of
+/// two sets one for each node of the tip and the nearest of the base.
+pub(super) fn of_sets(
+    component: &Component,
+    builder: &Builder,
+    names: &Names,
+) -> Result<Vec<NodesOfJoint>, Problem> {
+    let listed = &component.attachment.nodes;
+    let found = listed.iter().map(|own| names.nodes(&own.node)).collect::<Result<Vec<_>, Problem>>()?;
+    let is_set = |k: usize| found[k].len() > 1;
+    let place = |node: NodeId| builder.initial_frame(node).position;
+    let Some(leading) = (0..found.len()).rev().find(|&k| is_set(k)) else {
+        // A set of one node has the location of its node.
+        let is_set = |own: &&NodeLocation| {
+            matches!(own.node.value, NodeReference::Shell { place: ShellPlace::Set(_), .. })
+        };
+        let set = listed.iter().position(|own| is_set(&own)).map(|k| place(found[k][0].0));
+        let one = |(own, nodes): (&NodeLocation, &Vec<(NodeId, f64)>)| (nodes[0].0, own.at.or(set));
+        return Ok(vec![listed.iter().zip(&found).map(one).collect()]);
+    };
+    let at_node = |&(node, _): &(NodeId, f64)| {
+        let here = place(node);
+        let nearest = |nodes: &Vec<(NodeId, f64)>| {
+            let distance = |&(other, _): &(NodeId, f64)| (place(other) - here).norm();
+            nodes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map_or(node, |&(other, _)| other)
+        };
+        let mut nodes_of_joint = Vec::with_capacity(listed.len());
+        for (k, (own, nodes)) in listed.iter().zip(&found).enumerate() {
+            let own_node = if k == leading { node } else { nearest(nodes) };
+            nodes_of_joint.push((own_node, own.at.or(Some(here))));
+        }
+        nodes_of_joint
+    };
+    Ok(found[leading].iter().map(at_node).collect())
+}
+
+/// Nodes of a set on which a component acts, each with its share; none if it acts on one node, or on something else.
+pub(super) fn spread(
+    component: &Component,
+    builder: &Builder,
+    names: &Names,
+) -> Result<Option<Vec<(Attached, f64)>>, Problem> {
+    let [own] = component.attachment.nodes.as_slice() else { return Ok(None) };
+    let nodes = names.nodes(&own.node)?;
+    if nodes.len() < 2 {
+        return Ok(None);
+    }
+    let local = |node: NodeId| move |at: Vector3| builder.initial_frame(node).inverse_transform_point(&at);
+    let of = |&(node, share): &(NodeId, f64)| {
+        (Attached::to_nodes([(node, own.at.map_or_else(Vector3::zeros, local(node)))]), share)
+    };
+    Ok(Some(nodes.iter().map(of).collect()))
 }
 
 /// The coordinates of other joints that are named by keys.
@@ -77,6 +135,14 @@ fn first(
             .label("nothing to act on")
             .help(format!("name {kinds}")));
     };
+    if let Some(count) =
+        names.joints_of_sets.get(&joint.value).filter(|_| !component.parameters.has("coordinate"))
+    {
+        let message =
+            format!("joint `{}` consists of {count} joints, one for each node of a set", joint.value);
+        let help = "say which of them by `coordinate`, drive the edge by `prescribed_motion`, or clamp it to a body that has the joint";
+        return Err(Problem::error(joint.span, message).label("several coordinates").help(help));
+    }
     let number = component
         .parameters
         .number_or("coordinate", (first + 1) as f64)

@@ -1,8 +1,11 @@
 //! Estimates of the memory and disk space that a model requires, before it is built: a typing error in a number of elements or
 //! in a step would otherwise end the program without a message.
 
+use std::sync::Arc;
+
 use crate::document::{AnalysisKind, Document};
 use crate::files;
+use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Problem, Report};
 
 /// Memory of a node of a beam with its elements, its tangent, its factors and the motion of the run [bytes]: lines of
@@ -36,13 +39,29 @@ pub fn check_run(document: &Document) -> Result<(), Report> {
 
 fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut Vec<Problem>) {
     let nodes = |beam: &crate::document::Beam| beam.elements.value as f64 * beam.order as f64;
-    let memory = PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
+    let in_shell = |shell: &Arc<ShellMesh>| PER_NODE * shell.positions.len() as f64;
+    let of_shells = document.shells.iter().map(|shell| in_shell(&shell.mesh)).sum::<f64>();
+    let memory = of_shells + PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
     // The available memory is not queried for small models: that would take a tenth of the time of a sweep's member.
     if memory <= SMALL {
         return;
     }
     let available = available().min(MAX_MEMORY);
     if memory <= available {
+        return;
+    }
+    if let Some(shell) = document.shells.iter().max_by_key(|shell| shell.mesh.positions.len())
+        && 2.0 * of_shells > memory
+    {
+        let message = format!(
+            "the model requires about {} of memory, most of it for the {} elements of shell `{}`; available are {}",
+            size(memory),
+            shell.mesh.elements.len(),
+            shell.name.value,
+            size(available)
+        );
+        let help = "use fewer elements, or a machine with more memory";
+        problems.push(Problem::error(shell.name.span, message).help(help));
         return;
     }
     let Some(largest) = document.beams.iter().max_by(|a, b| nodes(a).total_cmp(&nodes(b))) else { return };

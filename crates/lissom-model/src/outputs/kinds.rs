@@ -10,6 +10,8 @@ pub(crate) enum Subject {
     Node,
     /// A position on a beam.
     Section,
+    /// A node of a shell.
+    ShellNode,
     Joint,
     Spring,
     Contact,
@@ -118,6 +120,12 @@ kinds! {
     SectionForce = outputs::section::SECTION_FORCE,
     /// Torsion and bending moments in a beam [N m], local axes.
     SectionMoment = outputs::section::SECTION_MOMENT,
+    /// Forces per length in a shell [N/m], local axes.
+    ShellForce = outputs::shell_stress::SHELL_FORCE,
+    /// Moments per length in a shell [N], local axes.
+    ShellMoment = outputs::shell_stress::SHELL_MOMENT,
+    /// Stresses at the faces of a shell [Pa], local axes.
+    ShellStress = outputs::shell_stress::SHELL_STRESS,
     /// Places of all nodes of a beam [m].
     Line = outputs::line::LINE,
     /// Modal coordinates of a superelement and their rates.

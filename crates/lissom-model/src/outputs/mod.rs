@@ -30,6 +30,8 @@ pub(crate) mod relative;
 pub(crate) mod relative_acceleration;
 mod rigid_contact_force;
 pub(crate) mod section;
+pub(crate) mod shell_nodes;
+pub(crate) mod shell_stress;
 pub(crate) mod signal;
 pub(crate) mod spring;
 mod spring_force;
@@ -55,6 +57,7 @@ use crate::outputs::channels::Channel;
 use crate::outputs::contact_point::{ContactPoint, RigidPoint};
 use crate::outputs::entry::Output;
 use crate::outputs::local_load_points::LocalLoadPoints;
+use crate::outputs::shell_nodes::BuiltShell;
 use crate::text::report::Problem;
 
 use touched::Touched;
@@ -167,6 +170,7 @@ pub struct Deformed {
 pub(crate) struct Resolver<'a> {
     pub(crate) nodes: &'a BTreeMap<String, NodeId>,
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
+    pub(crate) shells: &'a BTreeMap<String, BuiltShell>,
     pub(crate) deformations: &'a BTreeMap<String, Deformed>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lissom_mechanics::joints::Equations;
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::kinematics::{CoordinateId, Quantity};
-use lissom_motion::{rotation_part, translation_part};
+use lissom_motion::{Vector3, rotation_part, translation_part};
 use lissom_system::OutputDerivatives;
 use lissom_system::{State, System};
 
@@ -28,8 +28,21 @@ pub(crate) const REACTION: Declaration = Declaration {
 };
 fn quantity(output: &Output, system: &System, _: &Subjects<'_>) -> Found {
     let name = name_of(output)?;
-    if let Some(index) = system.joints().iter().position(|joint| joint.name == name.value) {
-        return Ok(Arc::new(OfJoint { index, axes: output.axes }));
+    let joints = system.joints().iter().enumerate().filter(|(_, joint)| joint.name == name.value);
+    match joints.map(|(index, _)| index).collect::<Vec<_>>()[..] {
+        [] => {}
+        [index] => return Ok(Arc::new(OfJoint { index, axes: output.axes })),
+        ref several if output.axes == ReactionAxes::Ground => {
+            return Ok(Arc::new(OfJoints(several.to_vec())));
+        }
+        ref several => {
+            let message = format!(
+                "`{}` consists of {} joints, which have no axes in common",
+                name.value,
+                several.len()
+            );
+            return Err(Problem::error(name.span, message).help("leave out `axes`"));
+        }
     }
     if output.axes != ReactionAxes::Ground {
         let message = format!("the reaction of `{}` has no axes: it acts on coordinates", name.value);
@@ -99,6 +112,28 @@ impl OutputQuantity for OfJoint {
         };
         let found = joint.reaction_derivatives(at.motion(), &multipliers(joint, at.state), axes);
         Some(of_local(&found, joint.first_multiplier, at.system))
+    }
+}
+
+/// Sum of the forces of the joints of a set of nodes on their tips, global axes, and of their moments about the mean of their positions.
+struct OfJoints(Vec<usize>);
+
+impl OutputQuantity for OfJoints {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let place = |joint: &AttachedJoint| {
+            let tip = joint.frames[1];
+            at.motion().nodes[tip.node].frame.transform_point(&tip.offset.position)
+        };
+        let joints = || self.0.iter().map(|&index| &at.system.joints()[index]);
+        let middle = joints().map(place).sum::<Vector3>() / self.0.len() as f64;
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for joint in joints() {
+            let reaction = joint.reaction(at.motion(), &multipliers(joint, at.state));
+            let own = translation_part(&reaction);
+            force += own;
+            moment += rotation_part(&reaction) + (place(joint) - middle).cross(&own);
+        }
+        out.extend(force.iter().chain(&moment));
     }
 }
 

@@ -24,11 +24,12 @@ pub(crate) use names::PREVIOUS_SAMPLE;
 const MAX_PARTS: usize = 20_000;
 
 /// Tables whose entries may be placed relative to another part by `in`.
-const PLACED_TABLES: [&str; 9] = [
+const PLACED_TABLES: [&str; 10] = [
     "points",
     "bodies",
     "point_masses",
     "beams",
+    "shells",
     "superelements",
     "joints",
     "springs",

@@ -5,5 +5,6 @@ pub(crate) mod function_values;
 pub(crate) mod local_tables;
 pub(crate) mod node_reference;
 pub(crate) mod reader;
+pub(crate) mod shell_mesh;
 pub(crate) mod table_values;
 mod values;

@@ -19,9 +19,10 @@ const FILES: [(&str, &str, &[TableAndId]); 10] = [
     ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
     (
         "parts",
-        "Beams, rigid bodies, point masses and superelements.",
+        "Beams, shells, rigid bodies, point masses and superelements.",
         &[
             ("beams", "BeamId"),
+            ("shells", "ShellId"),
             ("bodies", "BodyId"),
             ("point_masses", "PointMassId"),
             ("superelements", "SuperelementId"),
@@ -272,6 +273,7 @@ fn single(table: &str) -> &'static str {
     match table {
         "materials" => "material",
         "beams" => "beam",
+        "shells" => "shell",
         "bodies" => "body",
         "point_masses" => "point_mass",
         "superelements" => "superelement",
@@ -289,6 +291,7 @@ fn summary_of(table: &str) -> &'static str {
     match table {
         "materials" => "An isotropic elastic material.",
         "beams" => "A flexible beam.",
+        "shells" => "A flexible shell or plate.",
         "bodies" => "A rigid body.",
         "point_masses" => "A mass without extension.",
         "superelements" => "A linear elastic part that is given by reduced matrices.",

@@ -11,6 +11,7 @@ mod parts;
 mod path_values;
 mod places;
 mod shapes;
+mod shells;
 mod solids;
 mod superelements;
 mod symbols;
@@ -32,6 +33,7 @@ pub use path_values::PathValues;
 pub use places::{Anchor, Placed, Table};
 use places::{Places, part_of};
 pub use shapes::InertiaBox;
+pub use shells::Shell;
 pub use solids::{Form, Solid, Tone};
 pub use symbols::{Rod, Symbol};
 
@@ -75,6 +77,9 @@ pub struct Scene {
     pub point_masses: Vec<PointMass>,
     /// Beams.
     pub beams: Vec<Beam>,
+    /// Shells.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shells: Vec<Shell>,
     /// Joints, drives, and superelements, which connect their interfaces.
     pub joints: Vec<Joint>,
     /// Springs.
@@ -131,6 +136,7 @@ impl Scene {
             bodies: parts::bodies(document, &places),
             point_masses: parts::point_masses(document, &places),
             beams: parts::beams(document, &places),
+            shells: shells::shells(document, &places),
             joints,
             springs: connections::springs(document, &places),
             loads: connections::loads(document, &places),
@@ -167,7 +173,8 @@ impl Scene {
             .chain(self.symbols.iter().map(|symbol| symbol.anchor));
         let parts = (self.bodies.iter().map(|body| body.node))
             .chain(self.point_masses.iter().map(|mass| mass.node))
-            .chain(self.beams.iter().flat_map(|beam| beam.nodes.iter().copied()));
+            .chain(self.beams.iter().flat_map(|beam| beam.nodes.iter().copied()))
+            .chain(self.shells.iter().flat_map(|shell| shell.nodes.iter().copied()));
         anchors.map(|anchor| anchor.node).chain(parts).max().unwrap_or(GROUND)
     }
 

@@ -95,8 +95,15 @@ pub fn of_model(model: &Model, document: &Document, lowered: &Lowered) -> Summar
     insert("tolerance", json!(settings.limits.tolerance));
     insert("bodies", json!(document.bodies.len() + document.point_masses.len()));
     insert("beams", json!(document.beams.len()));
+    insert("shells", json!(document.shells.len()));
     insert("superelements", json!(document.superelements.len()));
-    insert("elements", json!(document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()));
+    insert(
+        "elements",
+        json!(
+            document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()
+                + document.shells.iter().map(|shell| shell.mesh.elements.len()).sum::<usize>()
+        ),
+    );
     insert("nodes", json!(layout.node_count() - 1));
     insert("joints", json!(document.joints.len()));
     insert("unknowns", json!(layout.size()));

@@ -93,7 +93,8 @@ impl Assembly {
 fn nodes_of<'a>(names: &'a Names, part: &str) -> &'a [NodeId] {
     let node = names.nodes.get(part).map(std::slice::from_ref);
     let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
-    nodes.or(names.superelements.get(part).map(Vec::as_slice)).unwrap_or_default()
+    let nodes = nodes.or(names.superelements.get(part).map(Vec::as_slice));
+    nodes.or(names.shells.get(part).map(|shell| shell.surface.nodes.as_slice())).unwrap_or_default()
 }
 
 /// Nodes that are to stay where they are.
@@ -111,6 +112,7 @@ pub(super) fn request<'a>(
     Request {
         rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
             .chain(names.superelements.values().map(Vec::as_slice))
+            .chain(names.shells.values().map(|shell| shell.surface.nodes.as_slice()))
             .collect(),
         fixed: fixed.to_vec(),
         values: values.to_vec(),
@@ -133,6 +135,7 @@ pub(super) fn assembled(
     let parts = (document.bodies.iter().map(|body| &body.name.value))
         .chain(document.point_masses.iter().map(|mass| &mass.name.value))
         .chain(document.beams.iter().map(|beam| &beam.name.value))
+        .chain(document.shells.iter().map(|shell| &shell.name.value))
         .chain(document.superelements.iter().map(|element| &element.name.value));
     let size = before.nodes.iter().map(|node| node.frame.position.norm()).fold(0.0, f64::max);
     let moved = parts.filter_map(|part| {

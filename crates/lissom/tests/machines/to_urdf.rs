@@ -168,6 +168,12 @@ fn what_the_format_cannot_say_is_named() {
         ("[joints.shoulder]", "[point_masses.p]\nmass = 1\n[joints.shoulder]", "point mass `p`"),
         (
             "[joints.shoulder]",
+            "[materials.m]\nE = 1e9\nnu = 0\ndensity = 1\n[shells.sail]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]\n\
+             divisions = [1, 1]\nthickness = 0.1\nmaterial = \"m\"\n[joints.shoulder]",
+            "shell `sail` is flexible",
+        ),
+        (
+            "[joints.shoulder]",
             "[bodies.stone]\nmass = 1\ninertia = [1, 1, 1]\n[joints.shoulder]",
             "body `stone` has no joint",
         ),

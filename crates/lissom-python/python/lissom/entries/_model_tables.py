@@ -8,7 +8,7 @@ from typing import Any
 from . import sections, parts, joints, springs, loads, contacts, feedback, motions, outputs, analyses
 from ._entry import Entry, ModelTree
 from .sections import Material, Section
-from .parts import Beam, Body, PointMass, Superelement, Part
+from .parts import Beam, Shell, Body, PointMass, Superelement, Part
 from .joints import Joint
 from .springs import Spring
 from .loads import Load, LocalLoad
@@ -29,6 +29,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     },
     "parts": parts.Part,
     "beams": parts.Beam,
+    "shells": parts.Shell,
     "bodies": parts.Body,
     "point_masses": parts.PointMass,
     "superelements": parts.Superelement,
@@ -107,6 +108,9 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "acceleration": outputs.Acceleration,
         "section_force": outputs.SectionForce,
         "section_moment": outputs.SectionMoment,
+        "shell_force": outputs.ShellForce,
+        "shell_moment": outputs.ShellMoment,
+        "shell_stress": outputs.ShellStress,
         "line": outputs.Line,
         "modal": outputs.Modal,
         "recovered": outputs.Recovered,
@@ -146,6 +150,7 @@ ORDER = (
     "points",
     "parts",
     "beams",
+    "shells",
     "bodies",
     "point_masses",
     "superelements",
@@ -250,6 +255,16 @@ class ModelTables(ModelTree):
     @beams.setter
     def beams(self, of: dict[str, Beam]) -> None:
         self._set("beams", of)
+
+    @property
+    def shells(self) -> dict[str, Shell]:
+        """Flexible shells and plates: curved surfaces of finite elements."""
+        of: dict[str, Shell] = self._table("shells")
+        return of
+
+    @shells.setter
+    def shells(self, of: dict[str, Shell]) -> None:
+        self._set("shells", of)
 
     @property
     def bodies(self) -> dict[str, Body]:

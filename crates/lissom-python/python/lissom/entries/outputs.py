@@ -250,6 +250,63 @@ class SectionMoment(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class ShellForce(Output):
+    """Forces per length in a shell, local axes: in the surface and across it.
+
+    Args:
+        of: the node of a shell, such as "panel@0.5,1"; a node.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
+
+    _form: ClassVar[str] = "shell_force"
+
+    of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
+    plot: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class ShellMoment(Output):
+    """Bending moments and torsion per length in a shell, local axes; positive where the side of the normal is in tension.
+
+    Args:
+        of: the node of a shell, such as "panel@0.5,1"; a node.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
+
+    _form: ClassVar[str] = "shell_moment"
+
+    of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
+    plot: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class ShellStress(Output):
+    """Stresses at both faces of a shell, local axes, and von Mises stresses at the faces and in the middle.
+
+    Args:
+        of: the node of a shell, such as "panel@0.5,1"; a node.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
+
+    _form: ClassVar[str] = "shell_stress"
+
+    of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
+    plot: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Line(Output):
     """Positions of all nodes of a beam, from its start to its end.
 

@@ -1,5 +1,5 @@
 # Made by `cargo xtask reference` of the program's own tables: do not edit.
-"""Beams, rigid bodies, point masses, superelements and sub-assemblies."""
+"""Beams, shells, rigid bodies, point masses, superelements and sub-assemblies."""
 
 from __future__ import annotations
 
@@ -44,6 +44,49 @@ class Beam(Entry):
     force_per_length: Vector | None = None
     section_force_per_length: Vector | None = None
     twist: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Shell(Entry):
+    """Flexible shells and plates: curved surfaces of finite elements.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        corners: four corners of a patch, counterclockwise about its normal: u = v = 0; u = 1; u = v = 1; v = 1 [m]; four positions, or nothing.
+        surface: instead of `corners`: x, y and z over u and v from 0 to 1 [m]; three expressions of `u` and `v`, or nothing.
+        divisions: of a patch: numbers of elements along u and v; two whole numbers, or nothing.
+        mesh: instead of `corners`: a Gmsh (.msh), Abaqus (.inp) or Wavefront (.obj) file; path relative to this file; a text, or nothing.
+        group: of a mesh: the set of its elements to be used; default all surfaces; a text, or nothing.
+        scale: of a mesh: factor to metres; default 1; a number > 0, or nothing.
+        join: whether nodes at the same position are one, as along the seam of a tube; default `false`; `true` or `false`, or nothing.
+        thickness: a number or an expression of u and v; either it or `plies` is required [m]; a number or an expression of `u` and `v`, or nothing.
+        material: of `thickness`, and of plies without their own; the name of an entry of `[materials]`, or nothing.
+        plies: layers of a laminate from the bottom to the top of the normal; a list of layers, or nothing.
+        direction: projected on the surface, the first local axis, from which angles of plies count; default that of each element; a direction, or nothing.
+        fold_angle: largest angle between elements of a mesh that count as one smooth surface; default 0.52 [rad]; a number from 0 to 3.2, or nothing.
+        pressure: force per area along the normal, which it follows: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
+        force_per_area: in global axes, fixed in direction: three numbers or expressions of u, v and t [Pa]; three expressions of `u`, `v` and `t`, or nothing.
+        sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
+    """
+
+    _table: ClassVar[str] = "shells"
+
+    in_: str | None = None
+    corners: list[Place] | None = None
+    surface: Vector | None = None
+    divisions: Vector | None = None
+    mesh: str | None = None
+    group: str | None = None
+    scale: Number | None = None
+    join: bool | None = None
+    thickness: Number | None = None
+    material: str | None = None
+    plies: list[Table] | None = None
+    direction: Vector | str | None = None
+    fold_angle: Number | None = None
+    pressure: Number | None = None
+    force_per_area: Vector | None = None
+    sets: Table | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -163,6 +206,7 @@ class Part(Entry):
         points: Named positions [m]; entries as in `[points]`, or nothing.
         parts: Sub-assemblies, which may be placed and repeated; their entries are named `part.name`; entries as in `[parts]`, or nothing.
         beams: Flexible beams; entries as in `[beams]`, or nothing.
+        shells: Flexible shells and plates: curved surfaces of finite elements; entries as in `[shells]`, or nothing.
         bodies: Rigid bodies; entries as in `[bodies]`, or nothing.
         point_masses: Point masses; entries as in `[point_masses]`, or nothing.
         superelements: Linear elastic parts, specified by reduced matrices; entries as in `[superelements]`, or nothing.
@@ -193,6 +237,7 @@ class Part(Entry):
     points: Tables | None = None
     parts: Tables | None = None
     beams: Tables | None = None
+    shells: Tables | None = None
     bodies: Tables | None = None
     point_masses: Tables | None = None
     superelements: Tables | None = None

@@ -238,6 +238,16 @@ fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     if let Some(&node) = names.nodes.get(name) {
         return Ok(node);
     }
+    if let Some((shell, set)) = name.rsplit_once('.')
+        && let Some(shell) = names.shells.get(shell)
+    {
+        return match shell.node_of_set(set) {
+            Some(node) => Ok(node),
+            None => question(format!(
+                "`{name}` is not one node: write a set of one node, as `{{ near = [x, y, z] }}`"
+            )),
+        };
+    }
     let (beam, fraction) =
         match (name.strip_suffix(".start"), name.strip_suffix(".end"), name.split_once('@')) {
             (Some(beam), ..) => (beam, Some(0.0)),
@@ -247,7 +257,7 @@ fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
         };
     let Some(line) = names.lines.get(beam) else {
         return question(format!(
-            "the reduced parts have no node `{name}`: write a body, \"beam.start\", \"beam.end\" or \"beam@0.5\""
+            "the reduced parts have no node `{name}`: write a body, \"beam.start\", \"beam.end\", \"beam@0.5\" or \"shell.set\""
         ));
     };
     match fraction.and_then(|fraction| line.node_at(fraction)) {
@@ -318,6 +328,7 @@ enum Touches {
 impl Chosen {
     fn of(document: &Document, request: &ReduceRequest, names: &Names) -> Result<Self, ReduceError> {
         let all: Vec<&String> = (document.beams.iter().map(|beam| &beam.name.value))
+            .chain(document.shells.iter().map(|shell| &shell.name.value))
             .chain(document.bodies.iter().map(|body| &body.name.value))
             .chain(document.point_masses.iter().map(|mass| &mass.name.value))
             .chain(document.superelements.iter().map(|element| &element.name.value))
@@ -360,6 +371,7 @@ impl Chosen {
             NodeReference::Ground => false,
             NodeReference::Body(name) | NodeReference::PointMass(name) => self.parts.contains(name),
             NodeReference::Beam { beam, .. } => self.parts.contains(beam),
+            NodeReference::Shell { shell, .. } => self.parts.contains(shell),
             NodeReference::Interface { superelement, .. } => self.parts.contains(superelement),
         }
     }
@@ -368,6 +380,9 @@ impl Chosen {
         let found = match node {
             NodeReference::Ground => None,
             NodeReference::Body(name) | NodeReference::PointMass(name) => self.names.nodes.get(name).copied(),
+            NodeReference::Shell { shell, place } => {
+                self.names.shells.get(shell).and_then(|shell| shell.node_at(place))
+            }
             NodeReference::Beam { beam, fraction } => {
                 self.names.lines.get(beam).and_then(|line| line.node_at(*fraction))
             }
@@ -423,6 +438,7 @@ impl Chosen {
         let mut own = whole.clone();
         let is_in = |name: &String| self.parts.contains(name);
         own.beams.retain(|beam| is_in(&beam.name.value));
+        own.shells.retain(|shell| is_in(&shell.name.value));
         own.bodies.retain(|body| is_in(&body.name.value));
         own.point_masses.retain(|mass| is_in(&mass.name.value));
         own.superelements.retain(|element| is_in(&element.name.value));

@@ -129,6 +129,36 @@ entry! {
 }
 
 entry! {
+    /// Forces per length in a shell, local axes: in the surface and across it.
+    ShellForce => OutputId, "shell_force";
+    ["kind" = "shell_force"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node of a shell, such as "panel@0.5,1"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Bending moments and torsion per length in a shell, local axes; positive where the side of the normal is in tension.
+    ShellMoment => OutputId, "shell_moment";
+    ["kind" = "shell_moment"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node of a shell, such as "panel@0.5,1"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Stresses at both faces of a shell, local axes, and von Mises stresses at the faces and in the middle.
+    ShellStress => OutputId, "shell_stress";
+    ["kind" = "shell_stress"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node of a shell, such as "panel@0.5,1"
+    new(of: Node = "of")
+}
+
+entry! {
     /// Positions of all nodes of a beam, from its start to its end.
     Line => OutputId, "line";
     ["kind" = "line"]
@@ -325,13 +355,13 @@ keys! {
 }
 
 keys! {
-    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
+    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
     /// Plot in which it is drawn together with other outputs of the same word; default its own.
     plot: String = "plot";
 }
 
 keys! {
-    [SectionForce, SectionMoment, Recovered, Reaction, Spring, SpringForce, Signal, ExpressionOutput]
+    [SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, Recovered, Reaction, Spring, SpringForce, Signal, ExpressionOutput]
     /// Exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component.
     woehler_exponent: f64 = "woehler_exponent";
     /// Number of cycles of the damage equivalent range; default one per second of the run.

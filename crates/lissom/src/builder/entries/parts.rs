@@ -1,11 +1,11 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
-//! Beams, rigid bodies, point masses and superelements.
+//! Beams, shells, rigid bodies, point masses and superelements.
 
 use super::words;
 use crate::builder::entry::entry;
 use crate::builder::expression::{Expression, Function};
 use crate::builder::values::{Inertia, Mass, PositionOrNode, Solid};
-use crate::ids::SectionId;
+use crate::ids::{MaterialId, SectionId};
 
 entry! {
     /// A flexible beam.
@@ -37,6 +37,40 @@ entry! {
     section_force_per_length: [Expression; 3] = "section_force_per_length";
     /// Rotation about the tangent, a number or an expression of s \[rad\].
     twist: Function = "twist";
+}
+
+entry! {
+    /// A flexible shell or plate.
+    Shell => ShellId, "shell";
+    []
+    /// With what must be given.
+    new()
+    /// Four corners of a patch, counterclockwise about its normal: u = v = 0; u = 1; u = v = 1; v = 1 \[m\].
+    corners: [[f64; 3]; 4] = "corners";
+    /// Instead of `corners`: x, y and z over u and v from 0 to 1 \[m\].
+    surface: [Expression; 3] = "surface";
+    /// Of a patch: numbers of elements along u and v.
+    divisions: [f64; 2] = "divisions";
+    /// Instead of `corners`: a Gmsh (.msh), Abaqus (.inp) or Wavefront (.obj) file; path relative to this file.
+    mesh: String = "mesh";
+    /// Of a mesh: the set of its elements to be used; default all surfaces.
+    group: String = "group";
+    /// Of a mesh: factor to metres; default 1.
+    scale: f64 = "scale";
+    /// Whether nodes at the same position are one, as along the seam of a tube; default `false`.
+    join: bool = "join";
+    /// A number or an expression of u and v; either it or `plies` is required \[m\].
+    thickness: Expression = "thickness";
+    /// Of `thickness`, and of plies without their own.
+    material: MaterialId = "material";
+    /// Projected on the surface, the first local axis, from which angles of plies count; default that of each element.
+    direction: [f64; 3] = "direction";
+    /// Largest angle between elements of a mesh that count as one smooth surface; default 0.52 \[rad\].
+    fold_angle: f64 = "fold_angle";
+    /// Force per area along the normal, which it follows: an expression of u, v and t \[Pa\].
+    pressure: Expression = "pressure";
+    /// In global axes, fixed in direction: three numbers or expressions of u, v and t \[Pa\].
+    force_per_area: [Expression; 3] = "force_per_area";
 }
 
 entry! {

@@ -1,5 +1,6 @@
 //! glTF 2.0, the binary form `.glb`: the mechanism with its motion as one animation. Bodies and symbols belong to moving
-//! nodes; a beam is a skin over its sections, each of which moves rigidly, so that it is exact at every frame.
+//! nodes; a beam is a skin over its sections, a shell over its nodes, each of which moves rigidly, so that they are exact at every
+//! frame.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use serde_json::{Value, json};
 use super::buffer::Buffer;
 use super::{ExportError, Format, Sink, chosen_frames, poses};
 use crate::motion::RecordedRun;
-use crate::pictures::geometry::{Carrier, Colour, Geometry, Mesh, Piece, Sweep, span, turn_to};
+use crate::pictures::geometry::{Carrier, Colour, Geometry, Mesh, Normals, Piece, span, turn_to};
 use crate::pictures::picture::shade_of;
 use lissom_core::kinematics::NodeId;
 
@@ -53,17 +54,19 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
     let clock = file.buffer.vectors(&times, 1, true, None);
     let mut carriers: BTreeMap<NodeId, usize> = BTreeMap::new();
     let mut on_top = vec![root];
+    let mut carrier = |file: &mut File, node: NodeId| {
+        *carriers.entry(node).or_insert_with(|| {
+            let track: Track = all.iter().map(|poses| (poses[node], 1.0)).collect();
+            file.moving(&motion.header().nodes[node.index()], &track, (root, clock))
+        })
+    };
     for piece in &geometry.pieces {
         let material = file.material(piece.colour);
         match &piece.carrier {
             Carrier::Node(node) => {
                 let mesh = file.mesh(&piece.mesh, material);
                 let child = file.holding(&piece.name, mesh);
-                let carrier = *carriers.entry(*node).or_insert_with(|| {
-                    let track: Track = all.iter().map(|poses| (poses[*node], 1.0)).collect();
-                    let name = &motion.header().nodes[node.index()];
-                    file.moving(name, &track, (root, clock))
-                });
+                let carrier = carrier(&mut file, *node);
                 file.child(carrier, child);
             }
             Carrier::Span(anchors) => {
@@ -73,12 +76,25 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
                 file.nodes[node]["mesh"] = json!(mesh);
             }
             Carrier::Sections(sweep) => {
-                on_top.push(file.skinned(
-                    piece,
-                    (sweep, material),
-                    (motion.reference(), &all),
-                    (root, clock),
-                ));
+                let at_frames: Vec<Vec<Pose>> = all.iter().map(|poses| sweep.sections(poses)).collect();
+                let rest = sweep.sections(motion.reference());
+                let bone = |k: usize| {
+                    let track: Track = at_frames.iter().map(|sections| (sections[k], 1.0)).collect();
+                    file.moving(&format!("{} {k}", piece.name), &track, (root, clock))
+                };
+                let bones: Vec<usize> = (0..rest.len()).map(bone).collect();
+                let around = sweep.profiles()[0].len() as u32;
+                on_top.push(file.skinned(piece, material, |point| point / around, (&bones, &rest, root)));
+            }
+            Carrier::Nodes(nodes) => {
+                // Bones have numbers of 16 bits.
+                if nodes.len() > usize::from(u16::MAX) {
+                    return Err(ExportError::TooLarge);
+                }
+                let bones: Vec<usize> = nodes.iter().map(|node| carrier(&mut file, *node)).collect();
+                let rest: Vec<Pose> = nodes.iter().map(|node| motion.reference()[*node]).collect();
+                file.materials[material]["doubleSided"] = json!(true);
+                on_top.push(file.skinned(piece, material, |point| point, (&bones, &rest, root)));
             }
             // Arrows of loads are drawn only in pictures.
             Carrier::Arrow(_) => {}
@@ -169,7 +185,7 @@ impl File {
         self.materials.len() - 1
     }
 
-    /// A mesh with flat faces: every face has its own points.
+    /// A mesh whose faces have their own points.
     fn mesh(&mut self, mesh: &Mesh, material: usize) -> usize {
         let (attributes, indices, _) = self.faces(mesh);
         self.meshes.push(json!({ "primitives": [
@@ -177,22 +193,21 @@ impl File {
         self.meshes.len() - 1
     }
 
-    /// Attributes and triangles of flat faces, and the point of the mesh for each vertex.
+    /// Attributes and triangles of faces, flat for a closed surface and round for an open one, and the point of the mesh for each
+    /// vertex.
     fn faces(&mut self, mesh: &Mesh) -> (Value, usize, Vec<u32>) {
         let (mut places, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         let mut origins: Vec<u32> = Vec::new();
-        for face in &mesh.faces {
-            let points: Vec<Vector3> = face.iter().map(|k| mesh.points[*k as usize]).collect();
-            let from_first = |k: usize| points[k] - points[0];
-            let twice: Vector3 = (1..points.len() - 1).map(|k| from_first(k).cross(&from_first(k + 1))).sum();
-            let Some(normal) = twice.try_normalize(0.0) else { continue };
+        let all = Normals::of(mesh);
+        for (index, face) in mesh.faces.iter().enumerate() {
+            let Some(own) = all.face(index) else { continue };
             let first = origins.len() as u32;
-            for (point, k) in points.iter().zip(face) {
-                places.extend(<[f64; 3]>::from(*point));
-                normals.extend(<[f64; 3]>::from(normal));
+            for k in face {
+                places.extend(<[f64; 3]>::from(mesh.points[*k as usize]));
+                normals.extend(<[f64; 3]>::from(if mesh.is_open { all.at(*k, &own) } else { own }));
                 origins.push(*k);
             }
-            for k in 1..points.len() as u32 - 1 {
+            for k in 1..face.len() as u32 - 1 {
                 triangles.extend([first, first + k, first + k + 1]);
             }
         }
@@ -202,30 +217,25 @@ impl File {
         (json!({ "POSITION": position, "NORMAL": normal }), indices, origins)
     }
 
-    /// A beam as a skin over its sections.
+    /// A piece as a skin: the bone for each of its points, and all bones with their poses in the mesh.
     fn skinned(
         &mut self,
         piece: &Piece,
-        (sweep, material): (&Sweep, usize),
-        (reference, all): (&[Pose], &[Vec<Pose>]),
-        (root, clock): (usize, usize),
+        material: usize,
+        bone_of: impl Fn(u32) -> u32,
+        (bones, rest, root): (&[usize], &[Pose], usize),
     ) -> usize {
         let (mut attributes, indices, origins) = self.faces(&piece.mesh);
-        let around = sweep.profiles()[0].len() as u32;
-        let joints: Vec<u16> = origins.iter().map(|point| (point / around) as u16).collect();
+        let joints: Vec<u16> = origins.iter().map(|point| bone_of(*point) as u16).collect();
         let weights: Vec<f32> = origins.iter().flat_map(|_| [1.0, 0.0, 0.0, 0.0]).collect();
         attributes["JOINTS_0"] = json!(self.buffer.joints(&joints));
         attributes["WEIGHTS_0"] = json!(self.buffer.vectors(&weights, 4, false, Some(34962)));
         self.meshes.push(json!({ "primitives": [
             { "attributes": attributes, "indices": indices, "material": material }] }));
         let mesh = self.meshes.len() - 1;
-        let at_frames: Vec<Vec<Pose>> = all.iter().map(|poses| sweep.sections(poses)).collect();
         let mut bind = Vec::new();
-        let mut bones = Vec::new();
-        for (k, section) in sweep.sections(reference).iter().enumerate() {
-            let track: Track = at_frames.iter().map(|sections| (sections[k], 1.0)).collect();
-            bones.push(self.moving(&format!("{} {k}", piece.name), &track, (root, clock)));
-            let inverse = section.inverse();
+        for pose in rest {
+            let inverse = pose.inverse();
             let turn = inverse.rotation.matrix();
             // By columns.
             for column in 0..3 {

@@ -6,6 +6,7 @@ mod gltf;
 mod netcdf;
 mod npz;
 mod parquet;
+mod shell_cells;
 mod vtk;
 
 use lissom_core::diagnostics::Diagnose;

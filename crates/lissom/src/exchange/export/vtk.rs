@@ -1,10 +1,11 @@
 //! VTK, for ParaView: one `.vtu` file for every frame and a `.pvd` file that lists their times. Beams are swept
-//! sections with section forces at their points.
+//! sections with section forces at their points, shells their elements with forces, moments and stresses at the centres.
 
 use std::fmt::Write;
 
 use lissom_motion::{Motion as Pose, Vector3};
 
+use super::shell_cells::ShellCells;
 use super::{ExportError, Format, Sink, chosen_frames, poses};
 use crate::motion::{Motion, RecordedRun};
 use crate::pictures::geometry::{Carrier, Geometry, Mesh, Piece, Role};
@@ -29,10 +30,13 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
         return Err(ExportError::Empty);
     }
     let geometry = Geometry::new(&run.scene, motion, false);
+    let shells = ShellCells::new(&run.scene);
     let mut series = String::new();
     for (number, &frame) in frames.iter().enumerate() {
         let name = format!("motion-{number:04}.vtu");
-        let grid = Grid::of(&geometry, motion, &poses(motion, frame), frame);
+        let poses = poses(motion, frame);
+        let mut grid = Grid::of(&geometry, motion, &poses, frame);
+        grid.of_cells = shells.arrays(&geometry, &grid.pieces, &poses);
         sink(&name, grid.text().as_bytes())?;
         // Writing to a string cannot fail.
         let _ = writeln!(series, "<DataSet timestep=\"{}\" file=\"{name}\"/>", motion.times()[frame]);
@@ -62,6 +66,7 @@ fn names(geometry: &Geometry) -> Vec<(String, Role)> {
 fn role_word(role: Role) -> &'static str {
     match role {
         Role::Beam => "beam",
+        Role::Shell => "shell",
         Role::Body => "body",
         Role::PointMass => "point mass",
         Role::Joint => "joint",
@@ -69,6 +74,9 @@ fn role_word(role: Role) -> &'static str {
         Role::Load => "load",
     }
 }
+
+/// Name of an array, number of its components, and its values for all cells.
+pub(super) type CellArray = (&'static str, usize, Vec<f32>);
 
 /// All surfaces in one frame.
 #[derive(Default)]
@@ -80,13 +88,17 @@ struct Grid {
     connectivity: Vec<i64>,
     offsets: Vec<i64>,
     parts: Vec<i32>,
+    /// Index of the piece, and number of its faces.
+    pieces: Vec<(usize, usize)>,
+    /// Further arrays.
+    of_cells: Vec<CellArray>,
 }
 
 impl Grid {
     fn of(geometry: &Geometry, motion: &Motion, poses: &[Pose], frame: usize) -> Self {
         let names = names(geometry);
         let mut grid = Self::default();
-        for piece in &geometry.pieces {
+        for (index, piece) in geometry.pieces.iter().enumerate() {
             let time = motion.times()[frame];
             let (Some(mesh), Some(start)) = (piece.at(poses, time), piece.at(motion.reference(), time))
             else {
@@ -94,6 +106,7 @@ impl Grid {
             };
             let part = names.iter().position(|(name, _)| *name == piece.name).unwrap_or_default();
             grid.add(&mesh, &start, (part as u32).cast_signed());
+            grid.pieces.push((index, mesh.faces.len()));
             grid.section_forces(piece, mesh.points.len(), (motion, frame));
         }
         grid
@@ -162,6 +175,9 @@ impl Grid {
         text += &array("section moment [N m]", "Float32", 3, floats(&self.moments));
         text += "</PointData>\n<CellData>\n";
         text += &array("part", "Int32", 1, encoded(self.parts.iter().flat_map(|part| part.to_le_bytes())));
+        for (name, size, values) in &self.of_cells {
+            text += &array(name, "Float32", *size, floats(values));
+        }
         text += "</CellData>\n<Points>\n";
         text +=
             &array("points", "Float64", 3, encoded(self.points.iter().flat_map(|value| value.to_le_bytes())));

@@ -8,13 +8,15 @@ use lissom_motion::{Matrix3, Motion as Pose, Rotation, Vector3};
 /// Number of sides of round shapes.
 const ROUND: usize = 20;
 
-/// A closed surface. Faces are convex and flat or nearly so; viewed from outside their points are counterclockwise.
+/// A surface. Faces are convex and flat or nearly so; viewed from outside their points are counterclockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions [m].
     pub points: Vec<Vector3>,
     /// Points of every face.
     pub faces: Vec<Vec<u32>>,
+    /// Whether it has a border, so that both sides are visible.
+    pub is_open: bool,
 }
 
 impl Mesh {
@@ -33,7 +35,7 @@ impl Mesh {
         }
         let last = points.len() as u32 - around;
         faces.push((last..last + around).collect());
-        Self { points, faces }
+        Self { points, faces, is_open: false }
     }
 
     /// Triangles.
@@ -41,6 +43,7 @@ impl Mesh {
         Self {
             points: surface.points.iter().map(|point| Vector3::from(point.map(f64::from))).collect(),
             faces: surface.triangles.iter().map(|triangle| triangle.to_vec()).collect(),
+            is_open: false,
         }
     }
 
@@ -126,7 +129,7 @@ impl Mesh {
         {
             faces.push(vec![x, y, z]);
         }
-        Self { points, faces }.outward()
+        Self { points, faces, is_open: false }.outward()
     }
 
     /// A coil of unit length about the second axis from -0.5 to 0.5: `turns` turns of a wire. The wire is round if the

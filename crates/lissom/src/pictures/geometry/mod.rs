@@ -3,9 +3,13 @@
 
 mod mesh;
 mod model;
+mod normals;
+mod shell_elements;
 mod sweep;
 
 pub use mesh::{Mesh, turn_to};
 pub(crate) use model::span;
 pub use model::{Carrier, Colour, Geometry, Piece, Role, poses_at};
+pub use normals::{Edge, Normals, normal};
+pub use shell_elements::{Layer, ShellElements, at_rest};
 pub use sweep::Sweep;

@@ -26,6 +26,8 @@ const TURNS: f64 = 9.0;
 pub enum Role {
     /// A beam.
     Beam,
+    /// A shell.
+    Shell,
     /// A rigid body.
     Body,
     /// A point mass.
@@ -41,7 +43,7 @@ pub enum Role {
 /// Colour of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
-    /// The part of this index: beams, bodies and point masses are numbered consecutively.
+    /// The part of this index: beams, shells, bodies and point masses are numbered consecutively.
     Part(usize),
     /// The tone of a symbol.
     Tone(Tone),
@@ -56,6 +58,8 @@ pub enum Carrier {
     Node(NodeId),
     /// That of a beam: the mesh is in the configuration of the model file.
     Sections(Sweep),
+    /// That of nodes, one at each point: the mesh is in the configuration of the model file.
+    Nodes(Vec<NodeId>),
     /// Between two positions; the mesh has unit length along its second axis.
     Span([Anchor; 2]),
     /// A load: the mesh has unit length along its second axis and begins at the origin.
@@ -99,6 +103,10 @@ impl Piece {
         match &self.carrier {
             Carrier::Node(node) => Some(self.mesh.clone().moved(&poses[*node])),
             Carrier::Sections(sweep) => Some(sweep.mesh(poses)),
+            Carrier::Nodes(nodes) => {
+                let points = nodes.iter().map(|node| poses[*node].position).collect();
+                Some(Mesh { points, ..self.mesh.clone() })
+            }
             Carrier::Span(anchors) => {
                 let (pose, length) = span(anchors, poses);
                 Some(self.mesh.clone().stretched(&Vector3::new(1.0, length, 1.0)).moved(&pose))
@@ -196,6 +204,13 @@ impl Geometry {
             let sweep = Sweep::new(beam, motion.reference(), least);
             let mesh = sweep.mesh(motion.reference());
             self.add(&beam.name, (Role::Beam, next()), mesh, Carrier::Sections(sweep));
+        }
+        for shell in &scene.shells {
+            let points = shell.nodes.iter().map(|node| motion.reference()[*node].position).collect();
+            let faces =
+                shell.elements.iter().map(|corners| corners.map(|node| node as u32).to_vec()).collect();
+            let mesh = Mesh { points, faces, is_open: true };
+            self.add(&shell.name, (Role::Shell, next()), mesh, Carrier::Nodes(shell.nodes.clone()));
         }
         for body in &scene.bodies {
             let mesh = self.body(body, &attached(scene, body.node));

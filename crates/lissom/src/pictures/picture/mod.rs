@@ -3,13 +3,19 @@
 //! the farthest to the nearest. Moving pictures are drawn by a depth buffer.
 
 mod depth_image;
+mod field;
 mod forces;
+mod legend;
+mod lines;
+mod paint;
 mod painter;
 mod snapshot;
 mod view;
 mod visible;
 
+pub use field::Field;
 pub use forces::RecordedForces;
+pub use paint::Paint;
 pub use painter::{Seen, painted, shade_of};
 pub use snapshot::{Picture, PictureError, instants};
 pub use view::{Projection, View};

@@ -1,12 +1,14 @@
-//! Surfaces as shaded polygons in painting order.
+//! Surfaces as shaded polygons in painting order, and the edges of open ones as lines above them.
 
 use lissom_model::output::Shade;
 use lissom_model::scene::Tone;
 use lissom_motion::{Motion as Pose, Vector3};
 
+use super::lines::lines;
+use super::paint::{Look, Paint};
 use super::view::Projection;
 use super::visible::{self, ItemBuffer, Laid};
-use crate::pictures::geometry::{Colour, Geometry, Mesh};
+use crate::pictures::geometry::{Colour, Geometry, Mesh, normal};
 
 /// Longest edge of a partly hidden face, relative to the model: long faces have no unique distance.
 const LONGEST: f64 = 0.02;
@@ -37,32 +39,53 @@ pub fn shade_of(colour: Colour) -> Shade {
     }
 }
 
-/// A projected face: points to the right and upward [m], and its colour.
+/// A projected face or edge: points to the right and upward [m], and its colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// Its points.
     pub points: Vec<[f64; 2]>,
     /// Its shaded colour.
     pub shade: Shade,
+    /// Width of an edge [pixels]; none for a face.
+    pub width: Option<f64>,
 }
 
 /// The faces of a model at poses of its nodes and a time [s], in painting order: first the partly hidden ones, divided
-/// into small faces, the farthest first; then those that are fully visible.
-pub fn painted(geometry: &Geometry, projection: &Projection, poses: &[Pose], time: f64) -> Vec<Seen> {
-    let (mut laid, mut shades) = (Vec::new(), Vec::new());
+/// into small faces, the farthest first; then those that are fully visible; last the visible edges of open surfaces.
+pub fn painted(
+    (geometry, paint): (&Geometry, &Paint),
+    projection: &Projection,
+    poses: &[Pose],
+    time: f64,
+) -> Vec<Seen> {
+    let (mut laid, mut shades, mut is_open, mut edges) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for piece in &geometry.pieces {
-        if let Some(mesh) = piece.at(poses, time) {
-            let shade = shade_of(piece.colour);
-            faces(&mesh, (geometry, projection), |face, bright| {
-                laid.push(face);
-                shades.push(shade.map(|part| (f64::from(part) * bright).round().clamp(0.0, 255.0) as u8));
-            });
+        let Some(mesh) = piece.at(poses, time) else { continue };
+        let (divided, looks) =
+            if mesh.is_open { paint.surface(piece, &mesh, poses) } else { Default::default() };
+        let plain = shade_of(piece.colour);
+        let drawn = if mesh.is_open { &divided } else { &mesh };
+        faces(drawn, projection, |index, face, normal| {
+            let look = looks.get(index).copied().unwrap_or(Look { shade: plain, normal });
+            laid.push(face);
+            is_open.push(mesh.is_open);
+            shades
+                .push(shaded(look.shade, projection.brightness_of_side(&normal, &look.normal, &geometry.up)));
+        });
+        let own = if mesh.is_open { paint.shades(piece, &mesh, poses) } else { Vec::new() };
+        for line in lines(&mesh, (geometry, projection)) {
+            let ends = line.ends.map(|point| laid_at(projection, &mesh.points[point as usize]));
+            edges.push((ends, shaded(own[line.face], line.bright), line.width));
         }
     }
     let buffer = ItemBuffer::of(&laid, geometry.extent());
     let (mut partly, mut wholly) = (Vec::new(), Vec::new());
     for (number, face) in laid.iter().enumerate() {
         match buffer.seen(face, number) {
+            // A gap in an open surface would show what is behind it.
+            visible::Seen::Hidden if is_open[number] && buffer.is_missed(face) => {
+                partly.push((mean_near(face), seen(face, shades[number])));
+            }
             visible::Seen::Hidden => {}
             visible::Seen::Wholly => wholly.push(seen(face, shades[number])),
             visible::Seen::Partly => {
@@ -71,44 +94,52 @@ pub fn painted(geometry: &Geometry, projection: &Projection, poses: &[Pose], tim
                     if let Some(halves) = halved(&face, LONGEST * geometry.extent()) {
                         rest.extend(halves);
                     } else if buffer.seen(&face, number) != visible::Seen::Hidden {
-                        let near = face.iter().map(|point| point[2]).sum::<f64>() / face.len() as f64;
-                        partly.push((near, seen(&face, shades[number])));
+                        partly.push((mean_near(&face), seen(&face, shades[number])));
                     }
                 }
             }
         }
     }
     partly.sort_by(|a, b| a.0.total_cmp(&b.0));
-    partly.into_iter().map(|(_, face)| face).chain(wholly).collect()
+    let lines = edges.into_iter().flat_map(|(ends, shade, width)| {
+        let line = move |points: [[f64; 2]; 2]| Seen { points: points.to_vec(), shade, width: Some(width) };
+        buffer.seen_parts(ends).into_iter().map(line)
+    });
+    partly.into_iter().map(|(_, face)| face).chain(wholly).chain(lines).collect()
+}
+
+fn mean_near(face: &Laid) -> f64 {
+    face.iter().map(|point| point[2]).sum::<f64>() / face.len() as f64
+}
+
+fn shaded(shade: Shade, bright: f64) -> Shade {
+    shade.map(|part| (f64::from(part) * bright).round().clamp(0.0, 255.0) as u8)
+}
+
+fn laid_at(projection: &Projection, point: &Vector3) -> [f64; 3] {
+    let [right, above] = projection.flat(point);
+    [right, above, projection.near(point)]
 }
 
 fn seen(face: &Laid, shade: Shade) -> Seen {
-    Seen { points: face.iter().map(|[x, y, _]| [*x, *y]).collect(), shade }
+    Seen { points: face.iter().map(|[x, y, _]| [*x, *y]).collect(), shade, width: None }
 }
 
-/// The faces of a surface towards the viewer, and their brightness. Surfaces are closed: faces away from the viewer are
-/// hidden.
-fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut visit: impl FnMut(Laid, f64)) {
-    for face in &mesh.faces {
-        let points: Vec<Vector3> = face.iter().map(|k| mesh.points[*k as usize]).collect();
+/// The faces of a surface towards the viewer, and their normals. Those of a closed surface away from the viewer are hidden; of an
+/// open one they show their other side.
+fn faces(mesh: &Mesh, projection: &Projection, mut visit: impl FnMut(usize, Laid, Vector3)) {
+    for (index, face) in mesh.faces.iter().enumerate() {
+        let mut points: Vec<Vector3> = face.iter().map(|k| mesh.points[*k as usize]).collect();
         let Some(normal) = normal(&points) else { continue };
-        if normal.dot(&projection.away) <= 0.0 {
-            continue;
+        let facing = normal.dot(&projection.away);
+        if facing < 0.0 && mesh.is_open {
+            points.reverse();
         }
-        let laid = |point: &Vector3| {
-            let [right, above] = projection.flat(point);
-            [right, above, projection.near(point)]
-        };
-        visit(points.iter().map(laid).collect(), projection.brightness(&normal, &geometry.up));
+        if facing > 0.0 || facing < 0.0 && mesh.is_open {
+            let laid = points.iter().map(|point| laid_at(projection, point)).collect();
+            visit(index, laid, normal);
+        }
     }
-}
-
-/// The normal of a face by Newell's formula; none for a face without area.
-pub(super) fn normal(points: &[Vector3]) -> Option<Vector3> {
-    // Relative to the first point, so that positions far from the origin keep their digits.
-    let from_first = |k: usize| points[k % points.len()] - points[0];
-    let twice: Vector3 = (0..points.len()).map(|k| from_first(k).cross(&from_first(k + 1))).sum();
-    twice.try_normalize(0.0)
 }
 
 /// A face of four corners, divided across an edge that is too long.

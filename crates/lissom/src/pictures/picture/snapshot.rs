@@ -8,7 +8,10 @@ use lissom_model::scene::Scene;
 use lissom_motion::{Motion as Pose, Vector3};
 
 use super::depth_image::depth_image;
+use super::field::Field;
 use super::forces::RecordedForces;
+use super::legend::legend;
+use super::paint::Paint;
 use super::painter::{Seen, painted};
 use super::view::{Projection, View};
 use crate::motion::Motion;
@@ -78,6 +81,8 @@ pub struct Picture {
     pub forces: RecordedForces,
     /// Captions of the panels, in their order; by default their instants.
     pub labels: Vec<String>,
+    /// The field by which shells are coloured; none for the colours of parts.
+    pub field: Option<Field>,
 }
 
 /// This number of instants at equal distances over a motion, including its ends; the last if it is one.
@@ -124,6 +129,7 @@ impl Frame {
 /// The projections at all instants.
 struct Panels {
     geometry: Geometry,
+    paint: Paint,
     /// Poses of the nodes, by panel.
     poses: Vec<Vec<Pose>>,
     seen: Vec<Vec<Seen>>,
@@ -170,7 +176,7 @@ impl Picture {
         let frame = |k: usize| {
             let drawing = sheet.drawn(&panels, k..k + 1, (title, &labels[k..=k]), &note);
             let size = drawing.size.map(|side| side.ceil() as u32);
-            let model = (&panels.geometry, &panels.projection);
+            let model = (&panels.geometry, &panels.paint, &panels.projection);
             let now = (panels.poses[k].as_slice(), self.times[k]);
             Ok((depth_image(model, now, size, sheet.place(0, title)), drawing))
         };
@@ -214,14 +220,17 @@ impl Picture {
         let (mut arrows, longest) = (Vec::new(), ARROW * geometry.size);
         let mut frame = Frame { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for &time in &self.times {
-            let poses = poses_at(motion, time).ok_or(PictureError::Outside { time, first, last })?;
+            all.push(poses_at(motion, time).ok_or(PictureError::Outside { time, first, last })?);
+        }
+        let paint = Paint::new(self.field, scene, &all);
+        for (&time, poses) in self.times.iter().zip(&all) {
             let seen = if is_moving {
-                for mesh in geometry.pieces.iter().filter_map(|piece| piece.at(&poses, time)) {
+                for mesh in geometry.pieces.iter().filter_map(|piece| piece.at(poses, time)) {
                     mesh.points.iter().for_each(|point| frame.take(&projection.flat(point)));
                 }
                 Vec::new()
             } else {
-                painted(&geometry, &projection, &poses, time)
+                painted((&geometry, &paint), &projection, poses, time)
             };
             seen.iter().flat_map(|face| &face.points).for_each(|point| frame.take(point));
             panels.push(seen);
@@ -229,14 +238,13 @@ impl Picture {
                 let end = at + force * (longest / self.forces.most());
                 [at, end].map(|point| projection.flat(&point))
             };
-            let drawn: Vec<_> = self.forces.at(&poses, time).into_iter().map(arrow).collect();
+            let drawn: Vec<_> = self.forces.at(poses, time).into_iter().map(arrow).collect();
             drawn.iter().flatten().for_each(|point| frame.take(point));
             arrows.push(drawn);
-            all.push(poses);
         }
         let paths = if self.paths { paths(scene, motion, &projection) } else { Vec::new() };
         paths.iter().flatten().for_each(|point| frame.take(point));
-        Ok(Panels { geometry, poses: all, seen: panels, paths, arrows, longest, projection, frame })
+        Ok(Panels { geometry, paint, poses: all, seen: panels, paths, arrows, longest, projection, frame })
     }
 }
 
@@ -318,7 +326,11 @@ impl Sheet {
                 drawing.line(path.iter().map(place).collect(), TRACE, 1.0);
             }
             for face in faces {
-                drawing.polygon(face.points.iter().map(place).collect(), face.shade);
+                let points = face.points.iter().map(place).collect();
+                match face.width {
+                    Some(width) => drawing.line(points, face.shade, width),
+                    None => drawing.polygon(points, face.shade),
+                }
             }
             for [from, to] in arrows {
                 arrow(&mut drawing, place(from), place(to));
@@ -330,6 +342,9 @@ impl Sheet {
         }
         let foot = size[1] - 0.45 * FOOT;
         axes(&mut drawing, &panels.projection, [34.0, foot]);
+        if let Some(scale) = panels.paint.scale() {
+            legend(&mut drawing, scale, [0.5 * size[0], foot - 8.0]);
+        }
         if !note.is_empty() {
             drawing.words([0.5 * size[0], foot + 22.0], note, 11, Align::Middle, FAINT);
         }
@@ -391,7 +406,7 @@ fn axes(drawing: &mut Drawing, projection: &Projection, [x, y]: [f64; 2]) {
 }
 
 /// A number in few digits.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     let rounded = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
     format!("{}", if rounded.abs() < 1e-12 { 0.0 } else { rounded })
 }

@@ -2,12 +2,15 @@
 
 use lissom_motion::{Rotation, Vector3};
 
-use crate::pictures::geometry::{Geometry, turn_to};
+use crate::pictures::geometry::{Geometry, Role, turn_to};
+
+/// Brightness of the back of an open surface relative to its front.
+const BACK: f64 = 0.8;
 
 /// A direction of view by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
-    /// From the front and above for a model in a plane, otherwise oblique.
+    /// From the front and above for a model in a plane without shells, otherwise oblique.
     #[default]
     Chosen,
     /// From the front, the right and above.
@@ -48,8 +51,11 @@ impl Projection {
         Self::new(&away, &up)
     }
 
-    /// The direction of view and the upward direction, for a model in a plane.
+    /// The direction of view and the upward direction, for a model in a plane without shells.
     fn chosen(geometry: &Geometry, to_up: &Rotation) -> Option<(Vector3, Vector3)> {
+        if geometry.pieces.iter().any(|piece| piece.role == Role::Shell) {
+            return None;
+        }
         let extent = geometry.high - geometry.low;
         let mut thin = (0..3).filter(|k| extent[*k] < 0.02 * geometry.extent());
         let (plane, None) = (thin.next()?, thin.next()) else { return None };
@@ -76,6 +82,12 @@ impl Projection {
     /// Coordinate towards the viewer [m].
     pub fn near(&self, point: &Vector3) -> f64 {
         self.away.dot(point)
+    }
+
+    /// Brightness of the visible side of a face with the normal `face`, shaded by another normal: the back is darker.
+    pub(super) fn brightness_of_side(&self, face: &Vector3, normal: &Vector3, up: &Vector3) -> f64 {
+        let is_front = face.dot(&self.away) >= 0.0;
+        if is_front { self.brightness(normal, up) } else { BACK * self.brightness(&-normal, up) }
     }
 
     /// Brightness of a face with this unit normal, about 1 if it faces the light.

@@ -74,6 +74,42 @@ impl ItemBuffer {
         }
     }
 
+    /// The visible parts of a line between two positions, by pieces that span two points of the grid.
+    pub(super) fn seen_parts(&self, [from, to]: [[f64; 3]; 2]) -> Vec<[[f64; 2]; 2]> {
+        let at = |x: f64| -> [f64; 3] { std::array::from_fn(|k| from[k] + x * (to[k] - from[k])) };
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let count = (length / (2.0 * self.spacing)).ceil().clamp(1.0, ACROSS) as usize;
+        let mut parts: Vec<[f64; 2]> = Vec::new();
+        for k in 0..count {
+            let [begin, end] = [k, k + 1].map(|k| k as f64 / count as f64);
+            if self.is_seen(at(0.5 * (begin + end))) {
+                match parts.last_mut() {
+                    Some(last) if last[1] == begin => last[1] = end,
+                    _ => parts.push([begin, end]),
+                }
+            }
+        }
+        let flat = |x: f64| [at(x)[0], at(x)[1]];
+        parts.into_iter().map(|part| part.map(flat)).collect()
+    }
+
+    /// Whether a face is visible although it is so narrow that no point of the grid is within it.
+    pub(super) fn is_missed(&self, face: &Laid) -> bool {
+        let mut is_covered = false;
+        self.covered(face, |_, _| is_covered = true);
+        let mean = |k: usize| face.iter().map(|point| point[k]).sum::<f64>() / face.len() as f64;
+        !is_covered && self.is_seen([mean(0), mean(1), mean(2)])
+    }
+
+    /// Whether nothing is nearer than a position at one of the points of the grid around it.
+    fn is_seen(&self, [x, y, near]: [f64; 3]) -> bool {
+        let cell = [(x, 0), (y, 1)].map(|(x, k)| ((x - self.low[k]) / self.spacing).max(0.0) as usize);
+        let around =
+            [0, 1, self.columns, self.columns + 1].map(|step| cell[1] * self.columns + cell[0] + step);
+        let is_behind = |point: usize| self.nearest.get(point).is_none_or(|own| own.0 <= near + self.spacing);
+        around.into_iter().any(is_behind)
+    }
+
     /// The points of the grid within a convex face, and its coordinate towards the viewer there.
     fn covered(&self, face: &Laid, mut visit: impl FnMut(usize, f64)) {
         let Some(plane) = Plane::of(face) else { return };
@@ -164,8 +200,32 @@ mod tests {
     }
 
     #[test]
+    fn lines_are_hidden_where_something_is_nearer() {
+        let faces = [square(0.0, 1.0, 0.0), square(0.4, 0.6, 1.0)];
+        let buffer = ItemBuffer::of(&faces, 1.0);
+        let parts = buffer.seen_parts([[0.0, 0.5, 0.0], [1.0, 0.5, 0.0]]);
+        let [[_, end], [begin, _]] = parts[..] else { panic!("{parts:?}") };
+        assert!((end[0] - 0.4).abs() < 3e-3 && (begin[0] - 0.6).abs() < 3e-3, "{parts:?}");
+        assert_eq!(buffer.seen_parts([[0.0, 0.5, 2.0], [1.0, 0.5, 2.0]]), [[[0.0, 0.5], [1.0, 0.5]]]);
+        // A border is seen, as beside it there is nothing.
+        assert_eq!(buffer.seen_parts([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]).len(), 1);
+    }
+
+    #[test]
+    fn narrow_faces_are_not_missed() {
+        let narrow = |near: f64| {
+            vec![[0.3, 0.5001, near], [0.7, 0.5001, near], [0.7, 0.5002, near], [0.3, 0.5002, near]]
+        };
+        let faces = [square(0.0, 1.0, 0.0), narrow(1.0), narrow(-1.0)];
+        let buffer = ItemBuffer::of(&faces, 1.0);
+        assert_eq!(buffer.seen(&faces[1], 1), Seen::Hidden);
+        assert_eq!([0, 1, 2].map(|k| buffer.is_missed(&faces[k])), [false, true, false]);
+    }
+
+    #[test]
     fn nothing_and_points_are_no_trouble() {
         assert_eq!(ItemBuffer::of(&[], 1.0).nearest.len(), 1);
+        assert_eq!(ItemBuffer::of(&[], 1.0).seen_parts([[0.0; 3]; 2]).len(), 1);
         let point = vec![[0.0; 3]; 4];
         let buffer = ItemBuffer::of(std::slice::from_ref(&point), 0.0);
         assert_eq!(buffer.seen(&point, 0), Seen::Hidden);

@@ -148,8 +148,9 @@ impl Results {
     /// If the bytes are not a motion file.
     pub fn with_motion(mut self, scene: Value, motion: &[u8]) -> Result<Self, MotionError> {
         let motion = Motion::from_bytes(motion)?;
+        let has_shells = scene["shells"].as_array().is_some_and(|shells| !shells.is_empty());
         self.scene = scene;
-        self.motion = Some(packed::Motion::of(&motion, self.effort));
+        self.motion = Some(packed::Motion::of(&motion, has_shells, self.effort));
         Ok(self)
     }
 

@@ -3,7 +3,7 @@
 //! A number of a motion is a multiple of its own quantum, stored as a second difference in as few bytes as necessary.
 //! Quanta are a fraction of the number's range during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations, 2⁻¹² for
 //! section forces; and never less than a fraction of the largest range of their kind. Motions of more than ten million
-//! numbers have quanta eight times as large.
+//! numbers have quanta eight times as large, those of shells a 32nd.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -22,6 +22,8 @@ const FORCE: [f64; 2] = [1.0 / 4096.0, 1e-6];
 /// A motion with more numbers is a large one, and this is the factor of its quanta.
 const LARGE: usize = 10_000_000;
 const COARSER: f64 = 8.0;
+/// Factor of the quanta of positions and rotations where strains of shells are seen: they are differences of neighbouring nodes.
+const FINER: f64 = 1.0 / 32.0;
 
 /// A motion in the page's format.
 #[derive(Clone, Debug, Serialize)]
@@ -38,7 +40,7 @@ impl Motion {
         self.nodes.len()
     }
 
-    pub(super) fn of(motion: &Recorded, effort: Effort) -> Self {
+    pub(super) fn of(motion: &Recorded, has_shells: bool, effort: Effort) -> Self {
         let (header, times) = (motion.header(), motion.times());
         let mut bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();
         for pose in motion.reference() {
@@ -48,10 +50,13 @@ impl Motion {
         let nodes = 3 * header.nodes.len();
         let points = 6 * header.point_count();
         let is_large = times.len() * (2 * nodes + points) > LARGE;
-        let of = |quanta: [f64; 2]| if is_large { quanta.map(|quantum| COARSER * quantum) } else { quanta };
+        let factor = if is_large { COARSER } else { 1.0 };
+        let of = |quanta: [f64; 2]| quanta.map(|quantum| factor * quantum);
+        let finer =
+            |quanta: [f64; 2]| if has_shells { quanta.map(|quantum| FINER * quantum) } else { of(quanta) };
         let mut first = 0;
         for (count, quanta) in [(nodes, DISPLACEMENT), (nodes, ROTATION)] {
-            channels(motion, first, count, 1, of(quanta), &mut bytes);
+            channels(motion, first, count, 1, finer(quanta), &mut bytes);
             first += count;
         }
         channels(motion, first, points, 6, of(FORCE), &mut bytes);

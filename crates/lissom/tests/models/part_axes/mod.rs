@@ -31,8 +31,17 @@ const STIFFNESS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 1\
 const RECOVERY: &str = "%%MatrixMarket matrix coordinate real general\n1 7 1\n1 7 3\n";
 
 /// Tables whose entries have the key `in`.
-const PLACED: [&str; 8] =
-    ["bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads", "local_loads"];
+const PLACED: [&str; 9] = [
+    "bodies",
+    "point_masses",
+    "beams",
+    "shells",
+    "superelements",
+    "joints",
+    "springs",
+    "loads",
+    "local_loads",
+];
 
 const GRAVITY: [f64; 3] = [0.03, -0.04, -9.7];
 const POSITION: [f64; 3] = [0.7, -1.1, 0.4];
@@ -222,6 +231,9 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         }
         OutputKind::SectionForce
         | OutputKind::SectionMoment
+        | OutputKind::ShellForce
+        | OutputKind::ShellMoment
+        | OutputKind::ShellStress
         | OutputKind::Relative
         | OutputKind::RelativeAcceleration
         | OutputKind::RelativeMotion

@@ -1,0 +1,159 @@
+//! Forces, moments and stresses of shells at their nodes: those at the Gauss points of the elements, extrapolated to the node, and their mean
+//! over its elements by area.
+
+use std::sync::Arc;
+
+use lissom_mechanics::elements::shell::Shell;
+use lissom_mechanics::elements::shell::section::Ply;
+use lissom_system::System;
+
+use super::frames::node_of;
+use super::shell_nodes::BuiltShell;
+use super::touched::Touched;
+use super::{Build, Evaluation, Found, OutputQuantity, Subjects};
+use crate::outputs::entry::Output;
+use crate::outputs::kinds::{Declaration, Feature, Subject};
+use crate::reading::node_reference::NodeReference;
+use crate::text::report::Problem;
+
+/// Why signals depend on them at samples only.
+const OF_ELEMENTS: &str = "it is the mean over the elements at the node";
+
+/// Registry entry.
+pub(crate) const SHELL_FORCE: Declaration = Declaration {
+    word: "shell_force",
+    summary: "Forces per length in a shell, local axes: in the surface and across it.",
+    subject: Subject::ShellNode,
+    features: &[Feature::Fatigue, Feature::InternalForces],
+    components: &[("n11", "N/m"), ("n22", "N/m"), ("n12", "N/m"), ("q13", "N/m"), ("q23", "N/m")],
+    build: Build::System(OF_ELEMENTS, |output, _, subjects| of(output, subjects, What::Force)),
+};
+/// Registry entry.
+pub(crate) const SHELL_MOMENT: Declaration = Declaration {
+    word: "shell_moment",
+    summary: "Bending moments and torsion per length in a shell, local axes; positive where the side of the normal is in tension.",
+    subject: Subject::ShellNode,
+    features: &[Feature::Fatigue, Feature::InternalForces],
+    components: &[("m11", "N"), ("m22", "N"), ("m12", "N")],
+    build: Build::System(OF_ELEMENTS, |output, _, subjects| of(output, subjects, What::Moment)),
+};
+/// Registry entry.
+pub(crate) const SHELL_STRESS: Declaration = Declaration {
+    word: "shell_stress",
+    summary: "Stresses at both faces of a shell, local axes, and von Mises stresses at the faces and in the middle.",
+    subject: Subject::ShellNode,
+    features: &[Feature::Fatigue, Feature::InternalForces],
+    components: &[
+        ("top11", "Pa"),
+        ("top22", "Pa"),
+        ("top12", "Pa"),
+        ("bottom11", "Pa"),
+        ("bottom22", "Pa"),
+        ("bottom12", "Pa"),
+        ("mises_top", "Pa"),
+        ("mises_middle", "Pa"),
+        ("mises_bottom", "Pa"),
+    ],
+    build: Build::System(OF_ELEMENTS, |output, _, subjects| of(output, subjects, What::Stress)),
+};
+
+/// What is recorded.
+#[derive(Clone, Copy)]
+enum What {
+    Force,
+    Moment,
+    Stress,
+}
+
+/// An element at a node, with its corner there.
+struct Corner {
+    element: Arc<Shell>,
+    at: usize,
+    plies: Arc<[Ply]>,
+    /// Its share in the mean.
+    share: f64,
+}
+
+struct OfShell {
+    corners: Vec<Corner>,
+    what: What,
+}
+
+fn of(output: &Output, subjects: &Subjects<'_>, what: What) -> Found {
+    let (node, _) = node_of(output)?;
+    let found = match &node.value {
+        NodeReference::Shell { shell, .. } => subjects.names.shells.get(shell),
+        _ => None,
+    };
+    let Some(shell) = found else {
+        let message = format!("output `{}` is of a shell, and this is no node of one", output.name.value);
+        return Err(Problem::error(node.span, message).help("name a node such as \"panel@0.5,1\""));
+    };
+    let place = shell.one_index(node)?;
+    let mut corners = shell.corners(place);
+    let whole: f64 = corners.iter().map(|corner| corner.share).sum();
+    for corner in &mut corners {
+        corner.share /= whole;
+    }
+    Ok(Arc::new(OfShell { corners, what }))
+}
+
+impl BuiltShell {
+    /// The elements at a node.
+    fn corners(&self, node: usize) -> Vec<Corner> {
+        let of = |(index, element): (usize, &[usize; 4])| {
+            let at = element.iter().position(|&own| own == node)?;
+            let (element, plies) = (Arc::clone(&self.surface.elements[index]), self.plies_of(index));
+            Some(Corner { share: element.area(), element, at, plies })
+        };
+        self.mesh.elements.iter().enumerate().filter_map(of).collect()
+    }
+}
+
+impl OutputQuantity for OfShell {
+    fn touched(&self, _: &System) -> Option<Touched> {
+        let mut touched = Touched::default();
+        touched.nodes.extend(self.corners.iter().flat_map(|corner| corner.element.nodes()));
+        Some(touched)
+    }
+
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let mut resultants = [0.0; 8];
+        let (mut faces, mut middle) = ([0.0; 6], [0.0; 3]);
+        for Corner { element, at: corner, plies, share } in &self.corners {
+            let strains = element.strains_at_corner(at.motion(), *corner);
+            let law = &element.law().stiffness;
+            for (k, resultant) in resultants.iter_mut().enumerate() {
+                *resultant += share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
+            }
+            let half = 0.5 * plies.iter().map(|ply| ply.thickness).sum::<f64>();
+            let add = |sums: &mut [f64], ply: &Ply, height: f64| {
+                let stiffness = ply.in_plane();
+                for (k, sum) in sums.iter_mut().enumerate() {
+                    let stretched = |j: usize| strains[j] + height * strains[3 + j];
+                    *sum += share * (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum::<f64>();
+                }
+            };
+            if let (Some(first), Some(last)) = (plies.first(), plies.last()) {
+                add(&mut faces[..3], last, half);
+                add(&mut faces[3..], first, -half);
+                add(&mut middle, &plies[plies.len() / 2], 0.0);
+            }
+        }
+        let [n11, n22, n12, m11, m22, m12, q13, q23] = resultants;
+        match self.what {
+            What::Force => out.extend([n11, n22, n12, q13, q23]),
+            What::Moment => out.extend([m11, m22, m12]),
+            What::Stress => {
+                out.extend(faces);
+                out.extend([mises(&faces[..3]), mises(&middle), mises(&faces[3..])]);
+            }
+        }
+    }
+}
+
+/// Von Mises stress of a plane state 11, 22, 12.
+fn mises(stress: &[f64]) -> f64 {
+    let [s, t, u] = [stress[0], stress[1], stress[2]];
+    (s * s - s * t + t * t + 3.0 * u * u).max(0.0).sqrt()
+}
