@@ -12,13 +12,7 @@ pub(crate) struct Edge {
     pub(crate) is_forward: bool,
 }
 
-impl Edge {
-    /// Its nodes in the direction of the element.
-    pub(crate) fn direction(&self) -> [usize; 2] {
-        let [first, second] = self.nodes;
-        if self.is_forward { [first, second] } else { [second, first] }
-    }
-}
+impl Edge {}
 
 /// Pairs of nodes around a triangle or quadrilateral; none of other shapes.
 pub(crate) fn sides(element: &MeshElement) -> impl Iterator<Item = [usize; 2]> {

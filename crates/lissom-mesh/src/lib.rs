@@ -14,7 +14,6 @@
 mod abaqus;
 mod abaqus_sets;
 mod abaqus_types;
-mod boundary;
 mod division;
 mod draft;
 mod edges;

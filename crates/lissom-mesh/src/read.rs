@@ -47,7 +47,6 @@ mod tests {
         let use_it = |text: &[u8], extension: &str| {
             if let Ok(mut mesh) = read(text, extension) {
                 mesh.surface_faults();
-                mesh.boundary();
                 mesh.orient();
                 let _ = mesh.part(None, crate::MeshShape::is_surface);
                 let divided = mesh.divided_into_quadrilaterals();
