@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 
 use super::connections::{Places, part_of};
 use super::{Body, Component, Document, NodeReference};
+use lissom_motion::Vector3;
+
 use crate::parts::context::Context;
 use crate::text::report::{Problem, Span};
 
@@ -25,8 +27,9 @@ const DEGREES: [f64; 8] = [45.0, 90.0, 180.0, 360.0, 720.0, 1080.0, 1800.0, 3600
 
 /// Warns of what is improbable.
 pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
-    let doubts =
-        [units, inertias, joints, degrees, single_nodes].into_iter().flat_map(|find| find(document, places));
+    let doubts = [units, inertias, joints, degrees, single_nodes, far_sets]
+        .into_iter()
+        .flat_map(|find| find(document, places));
     for (span, message, help) in doubts {
         context.report(Problem::warning(span, message).help(help));
     }
@@ -60,6 +63,32 @@ fn single_nodes(document: &Document, _: &Places) -> Vec<Doubt> {
         })
     };
     all.filter_map(doubt).collect()
+}
+
+/// Joints between two sets of nodes of shells, of which one node is farther from the nearest of the other than half the set is long.
+fn far_sets(document: &Document, _: &Places) -> Vec<Doubt> {
+    let positions = |node: &NodeReference| {
+        let NodeReference::Shell { shell, place } = node else { return None };
+        let mesh = &document.shell(shell)?.mesh;
+        let nodes = mesh.nodes_at(shell, place).ok()?;
+        Some(nodes.iter().map(|&node| mesh.positions[node]).collect::<Vec<_>>())
+    };
+    let doubt = |joint: &Component| {
+        let [base, tip] = joint.attachment.nodes.as_slice() else { return None };
+        let (bases, tips) = (positions(&base.node.value)?, positions(&tip.node.value)?);
+        let nearest =
+            |tip: &Vector3| bases.iter().map(|base| (base - tip).norm()).fold(f64::INFINITY, f64::min);
+        let farthest = tips.iter().map(nearest).fold(0.0, f64::max);
+        let long = tips.iter().map(|own| (own - tips[0]).norm()).fold(0.0, f64::max);
+        (long > 0.0 && farthest > 0.5 * long).then(|| {
+            let message = format!(
+                "joint `{}` connects nodes that are {farthest:.3} m apart, by rigid arms",
+                joint.name.value
+            );
+            (tip.node.span, message, "name the sides that lie at each other".to_owned())
+        })
+    };
+    document.joints.iter().filter_map(doubt).collect()
 }
 
 /// What is doubtful: where, why, and what is probably meant.

@@ -128,7 +128,7 @@ pub(super) fn keys() -> Vec<Key> {
             "thickness",
             Shape::Thickness,
             "m",
-            "a number or an expression of u and v; either it or `plies` is required",
+            "a number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements",
         ),
         optional("material", Shape::Name("materials"), "", "of `thickness`, and of plies without their own"),
         optional("plies", Shape::Plies, "", "layers of a laminate from the bottom to the top of the normal"),
@@ -208,16 +208,15 @@ impl Shape {
 pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell> {
     each(context, "shells", |reader, name| {
         let mesh = mesh_of(reader);
-        let layers = layers(reader, materials);
         let direction = match reader.node("direction") {
             Some(_) => Some(reader.vector("direction")?.value),
             None => None,
         };
         let fold_angle = reader.number("fold_angle");
         let loads = loads(reader);
-        let mut mesh = mesh?;
+        let (mut mesh, layer) = mesh?;
         let is_patch = mesh.places.is_some();
-        let layers = layers?;
+        let layers = layers(reader, materials, layer)?;
         if reader.flag("join")?.value {
             join(&mut mesh);
         }
@@ -235,7 +234,7 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
     })
 }
 
-fn mesh_of(reader: &Reader<'_, '_>) -> Option<ShellMesh> {
+fn mesh_of(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
     let context = reader.context;
     let given: Vec<&str> = ["corners", "surface", "mesh"].into_iter().filter(|key| reader.has(key)).collect();
     let help = "write `corners` or `surface` with `divisions`, or a `mesh`";
@@ -258,7 +257,7 @@ fn mesh_of(reader: &Reader<'_, '_>) -> Option<ShellMesh> {
             };
             let divisions = divisions(reader, node)?;
             let surface = if key == "corners" { corners(reader)? } else { expressions(reader)? };
-            patch(reader, &surface, divisions)
+            patch(reader, &surface, divisions).map(|mesh| (mesh, None))
         }
         [] => context.fail(reader.name, format!("{} has no surface", reader.what), help),
         [_, second, ..] => {
@@ -385,7 +384,7 @@ fn patch(reader: &Reader<'_, '_>, surface: &PointOf, [m, n]: [usize; 2]) -> Opti
     Some(ShellMesh { positions, places: Some(places), normals: Some(normals), elements, sets })
 }
 
-fn mesh(reader: &Reader<'_, '_>) -> Option<ShellMesh> {
+fn mesh(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
     let (context, node) = (reader.context, reader.node("mesh")?);
     let path = reader.text("mesh")?;
     let what = reader.words("mesh");
@@ -408,6 +407,15 @@ fn mesh(reader: &Reader<'_, '_>) -> Option<ShellMesh> {
         fail("it has no triangles or quadrilaterals".to_owned(), "mesh the surface, or name another `group`");
         return None;
     }
+    if let Some((first, others)) = mesh.notes.split_first() {
+        let more =
+            if others.is_empty() { String::new() } else { format!("; {} more are left out", others.len()) };
+        let problem = Problem::warning(node.span, format!("{what} is read in part: {first}{more}"));
+        context.report(problem.help("check that nothing of the surface is missing: `lissom view --initial`"));
+    }
+    let scale = reader.number("scale")?.value;
+    // Other lengths than metres mean other units of its material.
+    let layer = layer_of_file(&mesh, node.span).filter(|_| scale == 1.0);
     mesh.orient();
     let joins = reader.flag("join")?.value;
     for fault in mesh.surface_faults() {
@@ -426,8 +434,17 @@ fn mesh(reader: &Reader<'_, '_>) -> Option<ShellMesh> {
         mesh = mesh.divided_into_quadrilaterals();
     }
     let frame = context.frame(reader.scope)?;
-    let scale = reader.number("scale")?.value;
-    Some(of_mesh(&mesh, &frame, scale))
+    Some((of_mesh(&mesh, &frame, scale), layer))
+}
+
+/// The layer that a file gives to all elements of its mesh; none if it has no section, or several.
+fn layer_of_file(mesh: &Mesh, span: Span) -> Option<Layer> {
+    let [section] = mesh.sections.as_slice() else { return None };
+    let is_whole = mesh.element_sets.get(&section.element_set)?.len() == mesh.elements.len();
+    let material = mesh.materials.iter().find(|own| Some(&own.name) == section.material.as_ref())?;
+    let ply = Ply::isotropic(1.0, material.young?, material.poisson?, material.density?);
+    let thickness = Formula::of_constant(section.thickness?);
+    is_whole.then_some(Layer { thickness, span, ply })
 }
 
 fn of_mesh(mesh: &Mesh, frame: &Motion, scale: f64) -> ShellMesh {
@@ -550,7 +567,8 @@ fn sets(reader: &Reader<'_, '_>, mesh: &mut ShellMesh) -> Option<()> {
     Some(())
 }
 
-fn layers(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<Vec<Layer>> {
+/// The layers, by the keys or else as in the file of the mesh.
+fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer>) -> Option<Vec<Layer>> {
     let context = reader.context;
     let material = |own: &Reader<'_, '_>| {
         if own.node("material").is_none() {
@@ -638,6 +656,7 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<Vec<Layer>>
             format!("{} has both `thickness` and `plies`", reader.what),
             "remove one of them",
         ),
+        (None, None) if of_file.is_some() && common.is_none() => Some(of_file.into_iter().collect()),
         (None, None) => {
             let message = format!("{} lacks `thickness`", reader.what);
             context.fail(reader.name, message, "add `thickness = …` and `material`, or `plies`")
@@ -749,5 +768,68 @@ fn warn_of_shapes(reader: &Reader<'_, '_>, shell: &Shell) {
         reader.context.report(
             Problem::warning(span, message).help("use more elements where the surface is curved twice"),
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::lower::registry::registry;
+    use crate::{Document, Library, ModelText};
+
+    const PLATE: &str = "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*Element, type=S4, elset=P\n1, 1, 2, 3, 4\n\
+                         *Shell section, elset=P, material=M\n0.01\n*Material, name=M\n*Elastic\n2e11, 0.3\n*Density\n7800\n";
+
+    fn document(shell: &str, mesh: &str) -> Result<Document, String> {
+        let text = format!(
+            "lissom = 1\n[shells.p]\nmesh = \"p.inp\"\n{shell}\n[analysis]\nkind = \"dynamics\"\nend = 1\n"
+        );
+        let library = Library::of_texts([("p.inp".to_owned(), mesh.to_owned())]);
+        let read = ModelText::read_with(&text, "model.toml", &[], Arc::new(library));
+        let document = read.and_then(|text| text.document(&registry(), &[]));
+        document.map_err(|report| report.render(false))
+    }
+
+    #[test]
+    fn a_section_of_the_file_is_that_of_the_shell() {
+        let shell = &document("", PLATE).expect("a good model").shells[0];
+        assert_eq!((shell.thickness(0), shell.layers[0].ply.young), (0.01, [2e11; 2]));
+        // Of a file in millimetres the units of the material are unknown.
+        assert!(document("scale = 0.001", PLATE).expect_err("no section").contains("lacks `thickness`"));
+        let part = PLATE.replace("elset=P\n1,", "elset=Q\n1,").replace("*Shell", "*Elset, elset=P\n*Shell");
+        assert!(document("", &part).is_err());
+    }
+
+    #[test]
+    fn what_is_not_read_of_a_mesh_is_reported() {
+        let warnings = |mesh: &str| document("", mesh).expect("a good model").warnings.render(false);
+        assert!(!warnings(PLATE).contains("read in part"));
+        let more = PLATE.replace(
+            "*Material",
+            "*Element, type=B31, elset=B\n2, 1, 2\n*Element, type=MASS, elset=C\n3, 1\n*Material",
+        );
+        assert!(warnings(&more).contains("read in part"), "{}", warnings(&more));
+    }
+
+    #[test]
+    fn sides_that_do_not_lie_at_each_other_are_reported() {
+        let joint = |tip: &str| {
+            let square = |name: &str, x: f64| {
+                format!(
+                    "[shells.{name}]\ncorners = [[{x}, 0, 0], [{0}, 0, 0], [{0}, 1, 0], [{x}, 1, 0]]\ndivisions = [2, 2]\nthickness = 0.01\nmaterial = \"m\"\n",
+                    x + 1.0
+                )
+            };
+            let text = format!(
+                "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0.3\ndensity = 1000\n{}{}[joints.j]\nkind = \"clamp\"\nbase = \"a.east\"\n\
+                 tip = \"b.{tip}\"\n[analysis]\nkind = \"dynamics\"\nend = 1\n",
+                square("a", 0.0),
+                square("b", 1.0)
+            );
+            Document::parse(&text, "model.toml", &registry()).expect("a good model").warnings.render(false)
+        };
+        assert!(!joint("west").contains("rigid arms"));
+        assert!(joint("east").contains("rigid arms"), "{}", joint("east"));
     }
 }

@@ -59,7 +59,7 @@ class Shell(Entry):
         group: of a mesh: the set of its elements to be used; default all surfaces; a text, or nothing.
         scale: of a mesh: factor to metres; default 1; a number > 0, or nothing.
         join: whether nodes at the same position are one, as along the seam of a tube; default `false`; `true` or `false`, or nothing.
-        thickness: a number or an expression of u and v; either it or `plies` is required [m]; a number or an expression of `u` and `v`, or nothing.
+        thickness: a number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements [m]; a number or an expression of `u` and `v`, or nothing.
         material: of `thickness`, and of plies without their own; the name of an entry of `[materials]`, or nothing.
         plies: layers of a laminate from the bottom to the top of the normal; a list of layers, or nothing.
         direction: projected on the surface, the first local axis, from which angles of plies count; default that of each element; a direction, or nothing.

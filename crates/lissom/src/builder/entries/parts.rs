@@ -59,7 +59,7 @@ entry! {
     scale: f64 = "scale";
     /// Whether nodes at the same position are one, as along the seam of a tube; default `false`.
     join: bool = "join";
-    /// A number or an expression of u and v; either it or `plies` is required \[m\].
+    /// A number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements \[m\].
     thickness: Expression = "thickness";
     /// Of `thickness`, and of plies without their own.
     material: MaterialId = "material";
