@@ -34,7 +34,7 @@ fn shell(random: &mut Random) -> (System, State, Shell) {
         shear: [0.6, 0.5, 0.4],
         density: 1.0,
     };
-    let law = ShellLaw::laminate(&[ply, Ply { angle: -0.9, ..ply }], 0.0);
+    let law = ShellLaw::laminate(&[ply, Ply { angle: -0.9, ..ply }]);
     let shell = Shell::new(nodes, &frames, &normals, None, ShellLaw { drilling: 0.05, ..law });
     builder.add_element(shell.clone());
     let (system, state) = builder.build(0.0).expect("valid");

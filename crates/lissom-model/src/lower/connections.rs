@@ -72,14 +72,14 @@ pub(super) fn add(
         let name = entry.name.value.clone();
         let added = match &entry.law {
             ContactLaw::Rigid(law) => super::rigid_contacts::add(document, (entry, *law), names, builder)
-                .map(|points| drop(names.rigid_contacts.insert(name, points))),
+                .map(|points| drop(names.contacts.rigid.insert(name, points))),
             ContactLaw::OfBeam(law) => super::beam_contacts::add(document, (entry, law), names, builder)
-                .map(|points| drop(names.contacts.insert(name, points))),
+                .map(|points| drop(names.contacts.compliant.insert(name, points))),
             ContactLaw::Compliant(law) if document.analysis.gathers_contacts() => {
                 contact_set::add(document, (entry, law), names, builder)
             }
             ContactLaw::Compliant(law) => super::contacts::add(document, (entry, law), names, builder)
-                .map(|points| drop(names.contacts.insert(name, points))),
+                .map(|points| drop(names.contacts.compliant.insert(name, points))),
         };
         problems.extend(added.err());
     }
@@ -112,11 +112,7 @@ fn joint(
         None => (ports::coordinates(component, builder, names)?, Cow::Borrowed(&component.parameters)),
     };
     let mut all = Vec::new();
-    let sets = ports::of_sets(component, builder, names)?;
-    if sets.len() > 1 {
-        names.joints_of_sets.insert(name.clone(), sets.len());
-    }
-    for nodes in sets {
+    for nodes in ports::of_sets(component, builder, names)? {
         if let [(base, _), (tip, _)] = nodes[..]
             && base == tip
         {

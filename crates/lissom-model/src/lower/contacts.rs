@@ -65,7 +65,7 @@ impl Names {
         let mut names = with_friction.map(|entry| &entry.name.value).peekable();
         names.peek()?;
         let mut found = FrictionPoints::default();
-        for point in names.filter_map(|name| self.contacts.get(name)).flatten() {
+        for point in names.filter_map(|name| self.contacts.compliant.get(name)).flatten() {
             let forces = point.contact.forces_at(at);
             found.sliding += usize::from(forces.is_touching && forces.is_sliding);
             found.sticking += usize::from(forces.is_touching && !forces.is_sliding);

@@ -124,7 +124,7 @@ impl Built {
         mut problems: Vec<Problem>,
     ) -> Result<Observed, Report> {
         let Self { system, state, names, .. } = self;
-        contacts::start(names.contacts.values().flatten(), &mut state.kinematics);
+        contacts::start(names.contacts.compliant.values().flatten(), &mut state.kinematics);
         couplings::check(document, system, state, &mut problems);
         let (channels, accumulated) =
             output_channels::of(document, system, (drawn, undeformed), &names.resolver(), &mut problems);

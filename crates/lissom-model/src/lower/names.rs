@@ -10,7 +10,7 @@ use lissom_system::ElementId;
 
 use super::signal_references::SignalReferences;
 use crate::document::Component;
-use crate::outputs::contact_point::{ContactPoint, RigidPoint};
+use crate::outputs::contact_point::PointsOfContacts;
 use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::outputs::shell_nodes::BuiltShell;
 use crate::outputs::{Deformed, Resolver};
@@ -36,8 +36,6 @@ pub struct Names {
     pub inputs: Vec<String>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
-    /// Number of joints that a joint on a set of nodes stands for.
-    pub(super) joints_of_sets: BTreeMap<String, usize>,
     /// Springs that have an elongation, and whether it is a length or an angle.
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
     /// Index of each latch among the springs.
@@ -45,9 +43,7 @@ pub struct Names {
     /// Springs, loads and joints' friction, whose power can be determined.
     pub powers: BTreeMap<String, ElementId>,
     /// Points of each contact.
-    pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
-    /// Points of each rigid contact.
-    pub(crate) rigid_contacts: BTreeMap<String, Vec<RigidPoint>>,
+    pub(crate) contacts: PointsOfContacts,
     /// Elements of each local load.
     pub(crate) local_loads: BTreeMap<String, LocalLoadPoints>,
     /// Loads on coordinates of joints; those of size zero have no element.
@@ -130,7 +126,6 @@ impl Names {
             powers: &self.powers,
             contacts: &self.contacts,
             local_loads: &self.local_loads,
-            rigid_contacts: &self.rigid_contacts,
             signals: &self.signals,
         }
     }

@@ -135,11 +135,11 @@ fn first(
             .label("nothing to act on")
             .help(format!("name {kinds}")));
     };
-    if let Some(count) =
-        names.joints_of_sets.get(&joint.value).filter(|_| !component.parameters.has("coordinate"))
-    {
-        let message =
-            format!("joint `{}` consists of {count} joints, one for each node of a set", joint.value);
+    // Those of one joint have different names.
+    let mut of_joint: Vec<&str> = coordinates.iter().map(|&own| builder.coordinate_name(own)).collect();
+    of_joint.sort_unstable();
+    if of_joint.windows(2).any(|pair| pair[0] == pair[1]) && !component.parameters.has("coordinate") {
+        let message = format!("joint `{}` consists of joints at each node of a set", joint.value);
         let help = "say which of them by `coordinate`, drive the edge by `prescribed_motion`, or clamp it to a body that has the joint";
         return Err(Problem::error(joint.span, message).label("several coordinates").help(help));
     }

@@ -45,13 +45,13 @@ struct ContactForce(Vec<ContactPoint>);
 
 fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found {
     let name = name_of(output)?;
-    if let Some(points) = subjects.names.rigid_contacts.get(&name.value) {
+    if let Some(points) = subjects.names.contacts.rigid.get(&name.value) {
         return Ok(Arc::new(RigidContactForce(points.clone())));
     }
     if let Some(rule) = system.contacts().rules.iter().position(|rule| rule.name == name.value) {
         return Ok(Arc::new(ContactSetForce::new(system, rule)));
     }
-    let points = subjects.names.contacts.get(&name.value);
+    let points = subjects.names.contacts.compliant.get(&name.value);
     let points =
         points.ok_or_else(|| Problem::error(name.span, format!("there is no contact `{}`", name.value)))?;
     Ok(Arc::new(ContactForce(points.clone())))

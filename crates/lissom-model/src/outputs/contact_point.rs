@@ -1,5 +1,6 @@
 //! A contact of a model at one of its points, for outputs.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_mechanics::elements::Element;
@@ -8,6 +9,15 @@ use lissom_mechanics::elements::contact::{Contact, ContactForces};
 use lissom_mechanics::elements::nearest_contact::NearestContact;
 use lissom_mechanics::joints::rigid_contact::RigidContact;
 use lissom_mechanics::kinematics::{DiscreteValueId, Kinematics};
+
+/// Points of contacts by their names.
+#[derive(Clone, Default)]
+pub(crate) struct PointsOfContacts {
+    /// Of compliant ones.
+    pub(crate) compliant: BTreeMap<String, Vec<ContactPoint>>,
+    /// Of rigid ones.
+    pub(crate) rigid: BTreeMap<String, Vec<RigidPoint>>,
+}
 
 /// An element of a contact.
 pub(crate) trait ContactElement: Element {

@@ -54,7 +54,7 @@ use lissom_system::{ElementId, State, System};
 use nalgebra::DMatrix;
 
 use crate::outputs::channels::Channel;
-use crate::outputs::contact_point::{ContactPoint, RigidPoint};
+use crate::outputs::contact_point::PointsOfContacts;
 use crate::outputs::entry::Output;
 use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::outputs::shell_nodes::BuiltShell;
@@ -178,8 +178,7 @@ pub(crate) struct Resolver<'a> {
     /// Springs, loads and joints' friction.
     pub(crate) powers: &'a BTreeMap<String, ElementId>,
     /// Points of each contact.
-    pub(crate) contacts: &'a BTreeMap<String, Vec<ContactPoint>>,
-    pub(crate) rigid_contacts: &'a BTreeMap<String, Vec<RigidPoint>>,
+    pub(crate) contacts: &'a PointsOfContacts,
     pub(crate) local_loads: &'a BTreeMap<String, LocalLoadPoints>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,

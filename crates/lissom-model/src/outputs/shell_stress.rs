@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use lissom_mechanics::elements::shell::Shell;
-use lissom_mechanics::elements::shell::section::Ply;
+use lissom_mechanics::elements::shell::section::{Ply, von_mises};
 use lissom_system::System;
 
 use super::frames::node_of;
@@ -119,7 +119,7 @@ impl OutputQuantity for OfShell {
 
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
         let mut resultants = [0.0; 8];
-        let (mut faces, mut middle) = ([0.0; 6], [0.0; 3]);
+        let [mut top, mut middle, mut bottom] = [[0.0; 3]; 3];
         for Corner { element, at: corner, plies, share } in &self.corners {
             let strains = element.strains_at_corner(at.motion(), *corner);
             let law = &element.law().stiffness;
@@ -127,7 +127,7 @@ impl OutputQuantity for OfShell {
                 *resultant += share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
             }
             let half = 0.5 * plies.iter().map(|ply| ply.thickness).sum::<f64>();
-            let add = |sums: &mut [f64], ply: &Ply, height: f64| {
+            let add = |sums: &mut [f64; 3], ply: &Ply, height: f64| {
                 let stiffness = ply.in_plane();
                 for (k, sum) in sums.iter_mut().enumerate() {
                     let stretched = |j: usize| strains[j] + height * strains[3 + j];
@@ -135,8 +135,8 @@ impl OutputQuantity for OfShell {
                 }
             };
             if let (Some(first), Some(last)) = (plies.first(), plies.last()) {
-                add(&mut faces[..3], last, half);
-                add(&mut faces[3..], first, -half);
+                add(&mut top, last, half);
+                add(&mut bottom, first, -half);
                 add(&mut middle, &plies[plies.len() / 2], 0.0);
             }
         }
@@ -145,15 +145,9 @@ impl OutputQuantity for OfShell {
             What::Force => out.extend([n11, n22, n12, q13, q23]),
             What::Moment => out.extend([m11, m22, m12]),
             What::Stress => {
-                out.extend(faces);
-                out.extend([mises(&faces[..3]), mises(&middle), mises(&faces[3..])]);
+                out.extend(top.into_iter().chain(bottom));
+                out.extend([top, middle, bottom].map(von_mises));
             }
         }
     }
-}
-
-/// Von Mises stress of a plane state 11, 22, 12.
-fn mises(stress: &[f64]) -> f64 {
-    let [s, t, u] = [stress[0], stress[1], stress[2]];
-    (s * s - s * t + t * t + 3.0 * u * u).max(0.0).sqrt()
 }

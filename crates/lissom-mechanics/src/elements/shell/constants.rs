@@ -11,9 +11,13 @@ use super::quadrilateral::{GAUSS, NODES, POINTS, STRAINS};
 const COUPLED: usize = 10;
 /// First of the numbers for transverse shear.
 const SHEAR: usize = COUPLED * (COUPLED + 1) / 2;
+/// First of the numbers for drilling.
 const DRILLING: usize = SHEAR + 10;
+/// First of the strains in the stress-free state.
 const NATURAL: usize = DRILLING + POINTS;
+/// First of the triads' components.
 const DIRECTORS: usize = NATURAL + STRAINS;
+/// First of the inverse Jacobians.
 const JACOBIANS: usize = DIRECTORS + 9 * NODES;
 /// Number of constants of an element.
 pub(super) const COUNT: usize = JACOBIANS + 4 * POINTS;

@@ -31,7 +31,7 @@ use self::constants::{Constants, Numbers};
 use self::forces::forces;
 use self::interpolation::interpolation;
 use self::linearize::{SIZE, linearize, predicted};
-use self::quadrilateral::{EDGES, GAUSS, GAUSS_POINTS, NODES, POINTS, STRAINS};
+use self::quadrilateral::{EDGES, GAUSS, GAUSS_POINTS, NODES, STRAINS};
 use self::reference::Reference;
 use self::section::ShellLaw;
 use self::strains::Deformed;
@@ -132,13 +132,6 @@ impl Shell {
     /// Its nodes, counterclockwise about the normal.
     pub fn nodes(&self) -> &[NodeId; NODES] {
         &self.nodes
-    }
-
-    /// Energy of drilling [J]: what the weak spring adds to that of a surface.
-    pub fn drilling_energy(&self, at: &Kinematics) -> f64 {
-        let mut strains = Deformed::at(&self.numbers, &self.frames(at)).strains(&self.numbers);
-        strains[..STRAINS - POINTS].fill(0.0);
-        energy(&self.numbers, &strains)
     }
 
     /// Length of the longest side in the stress-free state [m].

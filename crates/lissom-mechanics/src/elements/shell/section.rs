@@ -18,7 +18,12 @@ pub struct ShellLaw {
 /// Shear correction of a homogeneous plate [Reissner 1945].
 pub const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
 /// Stiffness of drilling over that of shear in the plane: small enough to change nothing, large enough to remain a pivot.
-pub const DRILLING: f64 = 1e-3;
+pub const DRILLING_SHARE: f64 = 1e-3;
+
+/// Von Mises stress of stresses 11, 22, 12 in a plane.
+pub fn von_mises([s11, s22, s12]: [f64; 3]) -> f64 {
+    (s11 * s11 - s11 * s22 + s22 * s22 + 3.0 * s12 * s12).max(0.0).sqrt()
+}
 
 /// A layer of a laminate, orthotropic in its plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,12 +80,12 @@ impl Ply {
 }
 
 impl ShellLaw {
-    /// A laminate of layers from the bottom to the top, by classical laminate theory with transverse shear. `middle` is the height of the
-    /// reference surface above the middle of the laminate [m].
-    pub fn laminate(plies: &[Ply], middle: f64) -> Self {
+    /// A laminate of layers from the bottom to the top about the middle of its thickness, by classical laminate theory with transverse
+    /// shear.
+    pub fn laminate(plies: &[Ply]) -> Self {
         let mut stiffness = Matrix8::zeros();
         let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
-        let mut below = -0.5 * whole - middle;
+        let mut below = -0.5 * whole;
         let mut add = |row: usize, column: usize, block: &Matrix3<f64>| {
             let mut own = stiffness.fixed_view_mut::<3, 3>(row, column);
             own += block;
@@ -99,7 +104,7 @@ impl ShellLaw {
             below = above;
         }
         stiffness.fixed_view_mut::<2, 2>(6, 6).copy_from(&shear);
-        Self { stiffness, drilling: DRILLING * in_plane }
+        Self { stiffness, drilling: DRILLING_SHARE * in_plane }
     }
 
     /// The strains' stiffness with drilling as ninth.

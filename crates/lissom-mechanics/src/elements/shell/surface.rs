@@ -35,7 +35,7 @@ impl ShellSection {
             inertia += ply.density * (above.powi(3) - below.powi(3)) / 3.0;
             below = above;
         }
-        Self { law: ShellLaw::laminate(plies, 0.0), mass, inertia }
+        Self { law: ShellLaw::laminate(plies), mass, inertia }
     }
 }
 

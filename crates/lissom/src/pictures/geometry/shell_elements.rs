@@ -2,7 +2,7 @@
 //! seven digits: so do the strains relative to displacement over the size of an element.
 
 use lissom_core::elements::shell::Shell as Element;
-use lissom_core::elements::shell::section::{DRILLING, Matrix8, ShellLaw};
+use lissom_core::elements::shell::section::{DRILLING_SHARE, Matrix8, ShellLaw, von_mises};
 use lissom_core::kinematics::{Kinematics, NodeMotion};
 use lissom_model::scene::Shell;
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
@@ -49,7 +49,7 @@ impl ShellElements {
                 std::array::from_fn(|i| frames[i].rotation.apply(&Vector3::from(carried[i])));
             let numbers = of(&shell.stiffness, index);
             let stiffness = Matrix8::from_fn(|i, j| numbers.get(8 * i + j).copied().unwrap_or(0.0));
-            let law = ShellLaw { stiffness, drilling: DRILLING * stiffness[(2, 2)] };
+            let law = ShellLaw { stiffness, drilling: DRILLING_SHARE * stiffness[(2, 2)] };
             let direction = Vector3::from(of(&shell.directions, index));
             Element::new(corners.map(|node| shell.nodes[node]), &frames, &directors, Some(direction), law)
         };
@@ -90,8 +90,7 @@ impl ShellElements {
             Layer::Bottom => -6.0,
         };
         let stress = |k: usize| (resultants[k] + bending * resultants[3 + k] / thickness) / thickness;
-        let [s11, s22, s12] = [0, 1, 2].map(stress);
-        self.is_homogeneous.then(|| (s11 * s11 - s11 * s22 + s22 * s22 + 3.0 * s12 * s12).max(0.0).sqrt())
+        self.is_homogeneous.then(|| von_mises([0, 1, 2].map(stress)))
     }
 
     /// First local axis at the centre of an element, global axes: it rotates with the nodes.
