@@ -22,6 +22,7 @@ mod energy_balance;
 pub mod errors;
 pub(crate) mod integrator;
 pub mod interrupt;
+mod iterate;
 pub(crate) mod judge;
 pub mod linearized;
 pub(crate) mod monitors;

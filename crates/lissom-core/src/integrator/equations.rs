@@ -7,6 +7,7 @@ use lissom_solver::FactorError;
 
 use super::corrections::{Add, Measure, Multiply};
 use super::workspace::{EvaluationSpace, Workspace};
+use crate::iterate;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
 use crate::joints::starts::JointStarts;
@@ -201,6 +202,13 @@ impl StepEquations<'_> {
                 None => TangentAssembler::Each(&mut []),
             });
         self.assemble_tangent(&mut TangentAssembler::Each(&mut receivers));
+        if self.corrects_at_iterate()
+            && self.is_far()
+            && let Some(TangentValues::Real(values)) = values.first_mut()
+        {
+            let pattern = &self.system.structure().pattern;
+            iterate::hold_unbalanced_forces(self.system.layout(), pattern, values);
+        }
         for (index, own) in values.into_iter().enumerate().take(systems.len()) {
             self.work.tangent.matrices.set_values(index, own);
         }
@@ -213,6 +221,7 @@ impl StepEquations<'_> {
         let mut scratch = self.work.evaluation.scratch.take().unwrap_or_default();
         let mut tangents = std::mem::take(&mut self.work.evaluation.node_tangents);
         let chart = match self.scheme.parametrization {
+            _ if self.corrects_at_iterate() => Chart::Body,
             Parametrization::FromStart | Parametrization::Inertial => {
                 self.whole_increments(last, &mut tangents);
                 Chart::Increments(&tangents)
@@ -262,6 +271,11 @@ impl StepEquations<'_> {
                 work.evaluation.processor.dispatch(Multiply { values, factors });
             }
         }
+    }
+
+    /// Whether corrections move the nodes of the iterate along their axes, see [`iterate`], instead of being added to their increments.
+    fn corrects_at_iterate(&self) -> bool {
+        self.work.evaluation.previous.is_some() && !self.scheme.dynamic
     }
 
     /// Whether the iterate is far from equilibrium.
@@ -385,6 +399,7 @@ impl StepEquations<'_> {
     /// Adds the corrections of all stages times `share`.
     pub(super) fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
         let factor = self.scaled.multiplier_factor();
+        let at_iterate = self.corrects_at_iterate();
         let Workspace {
             increments,
             multipliers,
@@ -395,7 +410,12 @@ impl StepEquations<'_> {
         } = &mut *self.work;
         for (stage, corrections) in corrections.iter().enumerate() {
             let (motion, constraints) = corrections.split_at(units.coordinates.len());
-            processor.dispatch(Add { share, corrections: motion, values: &mut increments[stage] });
+            let increments = &mut increments[stage];
+            if at_iterate {
+                iterate::subtract_corrections(self.system.layout(), (motion, -share), increments);
+            } else {
+                processor.dispatch(Add { share, corrections: motion, values: increments });
+            }
             processor.dispatch(Add {
                 share: share * factor,
                 corrections: constraints,

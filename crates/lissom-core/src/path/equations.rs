@@ -13,6 +13,7 @@ use crate::errors::StepError;
 use crate::errors::step_error::{NO_STEP_HELPS, pivot_hint};
 use crate::integrator::equations::FAR_FROM_EQUILIBRIUM;
 use crate::integrator::workspace::sizes;
+use crate::iterate;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Stressed};
 use crate::newton::{Correction, Equations, Failure};
@@ -243,6 +244,7 @@ impl PathEquations<'_> {
 
     fn apply(&mut self, change: &Change, share: f64) {
         let layout = self.systems.any().layout();
+        let predicts_stresses = self.systems.any().predicts_stresses();
         let work = &mut *self.work;
         work.iterate.previous.nodes.copy_from_slice(&work.iterate.at.nodes);
         for (node, rows) in layout.node_rows.iter().enumerate() {
@@ -253,7 +255,11 @@ impl PathEquations<'_> {
             if psi == Vector6::zeros() {
                 continue;
             }
-            let motion = Motion::exponential(&psi);
+            let motion = if predicts_stresses {
+                iterate::correction(&psi, share < 0.0)
+            } else {
+                Motion::exponential(&psi)
+            };
             work.iterate.changes[node] = work.iterate.changes[node].then(&MotionChange::of(&motion));
             work.iterate.at.nodes[node].frame = work.iterate.at.nodes[node].frame * motion;
         }
@@ -376,8 +382,11 @@ impl PathEquations<'_> {
                 *value = unloaded + work.iterate.load_factor * (*value - unloaded);
             }
         }
-        (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
         let structure = system.structure();
+        if stressed_at_start && system.predicts_stresses() {
+            iterate::hold_unbalanced_forces(system.layout(), &structure.pattern, &mut values);
+        }
+        (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
         work.saddle.renew(structure, work.scaled.scale())?;
         work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
         let mut response = std::mem::take(&mut work.forces.response);

@@ -1,7 +1,7 @@
 //! Equilibria of shells.
 
 use super::CANTILEVER;
-use crate::support::runs::{column, last, run, run_without_warnings};
+use crate::support::runs::{column, last, record, run, run_without_warnings, session};
 
 /// A strip of 2 x 0.5 m, held at one end, with `rest` of the model.
 fn strip(shell: &str, rest: &str) -> String {
@@ -174,4 +174,17 @@ fn reactions_of_both_halves_of_an_edge_are_equal() {
         assert!((last(&record, reaction, "f3") + 2.0).abs() < 1e-6);
     }
     assert_eq!(column(&record, "root", "f3").len(), 5);
+}
+
+/// Steps of half the load, as in the trial of the element: no step is repeated, and the digits are those of many small steps.
+#[test]
+fn a_hemisphere_reaches_its_load_in_two_steps() {
+    let text = include_str!("../../../../verification/shell-hemisphere/model.toml");
+    let mut session = session(text, &[("analysis.steps", "2")]);
+    let record = record(&mut session);
+    assert!((last(&record, "pulled", "u1") - 4.03981).abs() < 1e-5);
+    assert!((last(&record, "pushed", "u2") + 8.14057).abs() < 1e-5);
+    let totals = session.simulation().totals();
+    assert_eq!((totals.steps, totals.rejected_steps), (2, 0));
+    assert!(totals.newton_iterations <= 20, "{}", totals.newton_iterations);
 }

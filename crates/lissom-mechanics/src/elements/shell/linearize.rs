@@ -109,7 +109,8 @@ pub(super) fn gradient<R: Real, C: Constants<R>>(
     (g, of_edges)
 }
 
-/// Stresses at `frames`, predicted linearly from `from`: a rotation stretches nothing to first order.
+/// Stresses at `frames`, predicted linearly from `from`: a rotation stretches nothing to first order. The way is that of a correction of
+/// statics, along the axes of a node and then about them.
 #[inline(always)]
 pub(super) fn predicted<R: Real, C: Constants<R>>(
     constants: &C,
@@ -119,7 +120,8 @@ pub(super) fn predicted<R: Real, C: Constants<R>>(
     let deformed = Deformed::at(constants, from);
     let mut way = [Screw::zero(frames[0].position.x); NODES];
     for i in 0..NODES {
-        way[i] = frames[i].relative_to(from[i]).logarithm();
+        let step = frames[i].relative_to(from[i]);
+        way[i] = Screw::new(step.position, step.rotation.logarithm());
     }
     let (mut strains, rates) = (deformed.strains(constants), deformed.rates(constants, from, &way));
     for k in 0..STRAINS {
