@@ -310,6 +310,10 @@ impl StepEquations<'_> {
             self.work.newton.reach = places.reference.max(1.0);
         }
         let largest = self.work.newton.reach;
+        // Corrections of positions below their round-off change no force: two in a row leave multipliers to the round-off of stiff strains,
+        // which is large beside the reactions of a thin shell at rest.
+        let at_rest = places.size.max(self.work.newton.correction * largest) < f64::EPSILON;
+        let at_rest = at_rest && self.work.evaluation.previous.is_some();
         self.work.newton.correction = places.size / largest;
         if !places.size.is_finite() {
             return places;
@@ -345,7 +349,7 @@ impl StepEquations<'_> {
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
         // Relative increments at joints are rounded like the whole displacement in the step, to which accelerations contribute.
         let is_travel = multipliers > size && change <= self.travel_round_off();
-        let multipliers = if is_travel { 0.0 } else { multipliers };
+        let multipliers = if is_travel || at_rest { 0.0 } else { multipliers };
         self.with_states(Correction { size: size.max(multipliers), reference })
     }
 
