@@ -38,6 +38,15 @@ export const connect = (viewer) => {
     viewer.choices.bodyShape = $("shape").value;
     viewer.rebuild();
   });
+  const cut = () => {
+    const axis = $("cut").value;
+    const place = stage.cut(axis === "" ? null : Number(axis), Number($("cut-at").value));
+    $("cut-at").closest("label").hidden = place === null;
+    if (place !== null) $("cut-place").textContent = `${"xyz"[axis]} < ${Number(place.toPrecision(3))} m`;
+    viewer.isStale = true;
+  };
+  on("cut", "change", cut);
+  on("cut-at", "input", cut);
   const follow = (isWanted) => {
     viewer.choices.follow = $("follow").checked = isWanted;
     viewer.isMoved = true;

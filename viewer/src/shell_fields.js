@@ -11,9 +11,11 @@ const ALIGNED = 0.866;
 /** Elements whose thicknesses differ by more than this factor have stresses of their own. */
 const STEP = 1.25;
 
-/** Von Mises stress at a height, in halves of the thickness above the middle, from the forces and moments of a homogeneous shell. */
-const misesAt = (height) => (forces, _, h) => {
-  const [membrane, bending] = [1 / h, (6 * height) / (h * h)];
+/** Von Mises stress at a height, in halves of the thickness above the middle, from the forces and moments of a homogeneous shell. Moments are
+ *  about the surface of the nodes, from which the middle is offset. */
+const misesAt = (height) => (forces, _, h, at, offset) => {
+  const bending = (6 * height) / (h * h);
+  const membrane = 1 / h - bending * offset;
   const s11 = membrane * forces[0] + bending * forces[3];
   const s22 = membrane * forces[1] + bending * forces[4];
   const s12 = membrane * forces[2] + bending * forces[5];
@@ -28,7 +30,7 @@ const energyPerArea = (forces, strains, _, at) => {
 
 const component = (k) => (forces) => forces[k];
 
-/** Names, units and functions of forces per length, strains from `at` on and thickness. */
+/** Names, units and functions of forces per length, strains, thickness, where the strains begin and offset. */
 const QUANTITIES = [
   ...[["top", 1], ["middle", 0], ["bottom", -1]].map(([where, height]) => ({ name: `von Mises stress, ${where}`, unit: "Pa", value: misesAt(height), isStress: true })),
   ...["11", "22", "12"].map((axes, k) => ({ name: `membrane force N${axes}`, unit: "N/m", value: component(k), isComponent: true })),
@@ -89,7 +91,7 @@ class ShellValues {
         for (let j = 0; j < 8; j++) sum += (stiffness[8 * i + j] * this.noise[j]) ** 2;
         this.forces[i] = Math.sqrt(sum);
       }
-      most = Math.max(most, quantity.value(this.forces, this.noise, of(this.shell.thickness, element), 0));
+      most = Math.max(most, quantity.value(this.forces, this.noise, of(this.shell.thickness, element), 0, this.shell.offset ?? 0));
     }
     return 2 * most;
   }
@@ -100,7 +102,7 @@ class ShellValues {
     const { count, ofElements } = this;
     for (let element = 0; element < count; element++) {
       const forces = this.resultants(element, strains, 8 * element);
-      ofElements[element] = quantity.value(forces, strains, of(this.shell.thickness, element), 8 * element);
+      ofElements[element] = quantity.value(forces, strains, of(this.shell.thickness, element), 8 * element, this.shell.offset ?? 0);
     }
     return this.averaged(this.groupsOf(quantity));
   }

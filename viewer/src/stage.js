@@ -143,6 +143,17 @@ export class Stage {
     this.dress(theme);
   }
 
+  /** Hides what lies beyond a plane across an axis, at a share of the extent of the drawn geometry; all is shown without an axis. Returns
+   *  the place of the plane [m]. */
+  cut(axis, share) {
+    this.renderer.clippingPlanes = [];
+    if (axis === null || !this.low) return null;
+    const [low, high] = [this.low, this.high].map((corner) => corner.getComponent(axis));
+    const place = low + share * (high - low);
+    this.renderer.clippingPlanes = [new THREE.Plane(new THREE.Vector3().setComponent(axis, -1), place)];
+    return place;
+  }
+
   /** Whether some of the drawn geometry is out of the picture, or it fills less than a third of it. */
   isPoorlyFramed() {
     this.camera.updateMatrixWorld();

@@ -29,7 +29,7 @@ const sheet = (n, m, place, changes = {}) => {
   for (let j = 0; j < m; j++) for (let i = 0; i < n; i++) elements.push([[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => b * (n + 1) + a));
   const nodes = positions.map((_, k) => k + 1);
   const axes = positions.map(() => [1, 0, 0, 0]);
-  return { name: "sheet", nodes, positions, elements, axes, directors: [], thickness: [0.01], directions: [[1, 0, 0]], stiffness: [layer(2e11, 0.3, 0.01)], is_homogeneous: true, area: 1, mass: 1, ...changes };
+  return { name: "sheet", nodes, positions, elements, axes, directors: [], thickness: [0.01], offset: 0, directions: [[1, 0, 0]], stiffness: [layer(2e11, 0.3, 0.01)], is_homogeneous: true, area: 1, mass: 1, ...changes };
 };
 
 /** About an axis by an angle: scalar first. */
@@ -272,6 +272,29 @@ export const shells = ({ folder, view, open, comparePlaces, plays, draws, select
       await page.selectOption("#frame", "part sheet");
       await page.locator("#names").check();
       await page.waitForFunction(() => [...document.querySelectorAll(".labels span")].some(({ textContent }) => textContent === "sheet"));
+      // A cut hides half of it.
+      const drawn = () =>
+        page.evaluate(() => {
+          const { renderer } = lissom.stage;
+          lissom.stage.render(lissom.stage.centre);
+          const gl = renderer.getContext();
+          const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+          const pixels = new Uint8Array(4 * width * height);
+          gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          const [r, g, b] = pixels;
+          let count = 0;
+          for (let k = 0; k < pixels.length; k += 4) count += Math.abs(pixels[k] - r) + Math.abs(pixels[k + 1] - g) + Math.abs(pixels[k + 2] - b) > 60;
+          return count;
+        });
+      await page.locator("#grid").uncheck();
+      const whole = await drawn();
+      await page.selectOption("#cut", "0");
+      assert.match(await page.locator("#cut-place").innerText(), /^x < [\d.]+ m$/);
+      const half = await drawn();
+      assert.ok(half > 0.2 * whole && half < 0.8 * whole, `${half} of ${whole} pixels`);
+      await page.selectOption("#cut", "");
+      assert.equal(await drawn(), whole);
+      await page.locator("#grid").check();
       // All of the motion is in the picture.
       await page.evaluate(() => lissom.magnify(1));
       assert.equal(await page.evaluate(() => (lissom.stage.fit(), lissom.stage.isPoorlyFramed())), false);

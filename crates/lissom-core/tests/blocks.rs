@@ -208,7 +208,7 @@ fn shells() {
                 stressed.nodes[node].frame = frame * Motion::exponential(&(turn * numbers.vector()));
             }
             let normals = [whole.rotation.apply(&Vector3::z()); 4];
-            let law = ShellLaw::laminate(&[Ply::isotropic(0.1, 3.0, 0.3, 1.0)]);
+            let law = ShellLaw::laminate(&[Ply::isotropic(0.1, 3.0, 0.3, 1.0)], 0.0);
             elements.push(Shell::new(nodes, &frames, &normals, None, law));
         }
         if turn > 0.0 {

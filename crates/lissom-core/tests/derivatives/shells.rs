@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use lissom_core::elements::shell::Shell;
+use lissom_core::elements::shell::damping::ShellDamping;
 use lissom_core::elements::shell::pressure::Pressure;
 use lissom_core::elements::shell::section::{Ply, ShellLaw};
 use lissom_core::elements::{Element, Tangents};
@@ -34,7 +35,7 @@ fn shell(random: &mut Random) -> (System, State, Shell) {
         shear: [0.6, 0.5, 0.4],
         density: 1.0,
     };
-    let law = ShellLaw::laminate(&[ply, Ply { angle: -0.9, ..ply }]);
+    let law = ShellLaw::laminate(&[ply, Ply { angle: -0.9, ..ply }], 0.07);
     let shell = Shell::new(nodes, &frames, &normals, None, ShellLaw { drilling: 0.05, ..law });
     builder.add_element(shell.clone());
     let (system, state) = builder.build(0.0).expect("valid");
@@ -65,6 +66,19 @@ fn tangents_are_the_derivatives_of_forces() {
     let mut random = Random::new(5);
     let (system, state, _) = shell(&mut random);
     check("shell", &system, &state, 0.4, &mut random);
+}
+
+#[test]
+fn tangents_of_damping_are_the_derivatives_of_its_forces() {
+    let mut random = Random::new(8);
+    let (_, _, shell) = shell(&mut random);
+    let mut builder = Builder::new();
+    for _ in 0..4 {
+        builder.add_node("node", random.motion(), Freedoms::Full);
+    }
+    builder.add_element(ShellDamping::new(Arc::new(shell), 0.3));
+    let (system, state) = builder.build(0.0).expect("valid");
+    check("damping of a shell", &system, &state, 0.4, &mut random);
 }
 
 #[test]

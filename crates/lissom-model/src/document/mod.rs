@@ -53,7 +53,7 @@ pub use crate::format::top_level::VERSION;
 pub use crate::outputs::entry::{Output, OutputSource, ReactionAxes};
 pub use crate::outputs::kinds::OutputKind;
 pub(crate) use crate::outputs::kinds::{Feature, Subject};
-pub use crate::reading::node_reference::{NodeReference, interface_name};
+pub use crate::reading::node_reference::{NodeReference, ShellPlace, interface_name};
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use beam_contacts::{BeamContactEntry, Touching};

@@ -37,6 +37,10 @@ pub struct Shell {
     pub direction: Option<Vector3>,
     /// Largest angle between elements that count as one smooth surface [rad].
     pub fold_angle: f64,
+    /// Place of the middle of its thickness along the normal [m].
+    pub offset: f64,
+    /// Damping in proportion to the stiffness [s].
+    pub damping: f64,
     /// Loads per area.
     pub loads: Vec<AreaLoad>,
 }
@@ -131,6 +135,14 @@ pub(super) fn keys() -> Vec<Key> {
             "a number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements",
         ),
         optional("material", Shape::Name("materials"), "", "of `thickness`, and of plies without their own"),
+        optional(
+            "offset",
+            Shape::Number,
+            "m",
+            "place of the middle of the thickness along the normal of the surface",
+        )
+        .or_number(0.0),
+        optional("damping", Shape::NotNegative, "s", "damping in proportion to the stiffness").or_number(0.0),
         optional("plies", Shape::Plies, "", "layers of a laminate from the bottom to the top of the normal"),
         optional(
             "direction",
@@ -213,6 +225,7 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
             None => None,
         };
         let fold_angle = reader.number("fold_angle");
+        let (offset, damping) = (reader.number("offset"), reader.number("damping"));
         let loads = loads(reader);
         let (mut mesh, layer) = mesh?;
         let is_patch = mesh.places.is_some();
@@ -227,6 +240,8 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
             layers,
             direction,
             fold_angle: fold_angle?.value,
+            offset: offset?.value,
+            damping: damping?.value,
             loads: loads?,
         };
         check(reader, &shell, is_patch)?;

@@ -171,7 +171,7 @@ fn friction(component: &Component, builder: &mut Builder, names: &mut Names) -> 
     let element = builder
         .add_of_kind(kind, Attached::to_coordinates([*coordinate]), &friction.value)
         .map_err(|error| Problem::error(friction.span, format!("friction of joint `{name}`: {error}")))?;
-    names.powers.extend(element.map(|element| (name.clone(), element)));
+    names.powers.extend(element.map(|element| (name.clone(), vec![element])));
     Ok(())
 }
 
@@ -207,7 +207,7 @@ fn element(
         names.latches.insert(component.name.value.clone(), latches);
     }
     let is_spring = SPRINGS.iter().any(|spring| spring.name == kind.name);
-    names.powers.extend(element.map(|element| (component.name.value.clone(), element)));
+    names.powers.extend(element.map(|element| (component.name.value.clone(), vec![element])));
     names.actuators.extend(coordinate.filter(|_| !is_spring).map(|coordinate| (coordinate, element)));
     if let Some(element) = element.filter(|_| is_spring) {
         let quantity = kind.ports.quantity().unwrap_or(Quantity::Length);
@@ -240,17 +240,19 @@ fn spread_load(
             Some(super::signals::add_formula(document, builder, names, &subject, formula)?)
         }
     };
+    let mut elements = Vec::new();
     for (attached, share) in spread {
         parameters.insert("vector", Value::Vector(share * whole));
         match signal {
-            None => {
-                builder.add_of_kind(kind, attached, &parameters).map_err(fault)?;
-            }
+            None => elements.extend(builder.add_of_kind(kind, attached, &parameters).map_err(fault)?),
             Some(signal) => {
                 let load = kind.contribution(builder.model(), attached, &parameters).map_err(fault)?;
-                builder.add_driven(signal, load);
+                elements.extend(builder.add_driven(signal, load));
             }
         }
+    }
+    if !elements.is_empty() {
+        names.powers.insert(component.name.value.clone(), elements);
     }
     Ok(())
 }

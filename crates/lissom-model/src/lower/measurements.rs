@@ -177,7 +177,10 @@ pub(super) fn bind(
         let of = of(output);
         let element = match of {
             Of::Spring => spring.map(|&(element, elongation)| (element, components_of(elongation))),
-            Of::Power => names.powers.get(&name.value).map(|&own| (own, output.kind.components())),
+            Of::Power => names.powers.get(&name.value).and_then(|own| match own[..] {
+                [element] => Some((element, output.kind.components())),
+                _ => None,
+            }),
             Of::Wrench(_) => spring.map(|&(element, _)| (element, output.kind.components())),
         };
         // An element that could not be added, and a spring without elongation, have their own problems.

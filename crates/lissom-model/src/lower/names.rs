@@ -40,8 +40,8 @@ pub struct Names {
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
     /// Index of each latch among the springs.
     pub latches: BTreeMap<String, usize>,
-    /// Springs, loads and joints' friction, whose power can be determined.
-    pub powers: BTreeMap<String, ElementId>,
+    /// Springs, loads and joints' friction, whose power can be determined: one element, or one for each node of a set.
+    pub powers: BTreeMap<String, Vec<ElementId>>,
     /// Points of each contact.
     pub(crate) contacts: PointsOfContacts,
     /// Elements of each local load.

@@ -45,7 +45,8 @@ pub(super) fn add(
                 normals: shell.mesh.normals.as_deref(),
                 fold_angle: shell.fold_angle,
                 direction: shell.direction,
-                section: &|element| ShellSection::laminate(&shell.plies(element)),
+                damping: shell.damping,
+                section: &|element| ShellSection::laminate(&shell.plies(element), shell.offset),
             },
         );
         builder.add(contribution);
@@ -57,7 +58,8 @@ pub(super) fn add(
         for load in &shell.loads {
             problems.extend(add_load(document, (shell, load), &surface, builder).err());
         }
-        names.shells.insert(name.clone(), BuiltShell { mesh: Arc::clone(&shell.mesh), surface, plies });
+        let built = BuiltShell { mesh: Arc::clone(&shell.mesh), surface, plies, offset: shell.offset };
+        names.shells.insert(name.clone(), built);
     }
 }
 

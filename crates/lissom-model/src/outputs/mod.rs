@@ -176,7 +176,7 @@ pub(crate) struct Resolver<'a> {
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
     pub(crate) latches: &'a BTreeMap<String, usize>,
     /// Springs, loads and joints' friction.
-    pub(crate) powers: &'a BTreeMap<String, ElementId>,
+    pub(crate) powers: &'a BTreeMap<String, Vec<ElementId>>,
     /// Points of each contact.
     pub(crate) contacts: &'a PointsOfContacts,
     pub(crate) local_loads: &'a BTreeMap<String, LocalLoadPoints>,

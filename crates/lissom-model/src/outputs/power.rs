@@ -27,9 +27,10 @@ pub(crate) const POWER: Declaration = Declaration {
     build: Build::Element(|_| Of::Power, quantity),
 };
 /// What puts power into a model.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) enum Actor {
-    Element(ElementId),
+    /// One, or one for each node of a set.
+    Elements(Vec<ElementId>),
     /// By its position among the drives.
     Drive(usize),
     /// By its position among the latches.
@@ -39,7 +40,7 @@ pub(super) enum Actor {
 /// The spring, load, drive or friction of a joint of this name.
 pub(super) fn actor(name: &Located<String>, system: &System, names: &Resolver<'_>) -> Result<Actor, Problem> {
     let drive = system.drives().iter().position(|drive| drive.name == name.value);
-    let own = names.powers.get(&name.value).map(|&element| Actor::Element(element));
+    let own = names.powers.get(&name.value).map(|own| Actor::Elements(own.clone()));
     let latch = names.latches.get(&name.value).map(|&index| Actor::Latch(index));
     own.or(drive.map(Actor::Drive)).or(latch).ok_or_else(|| {
         Problem::error(name.span, format!("`{}` has no power to record", name.value)).help(
@@ -52,9 +53,12 @@ fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found 
     Ok(match actor(name_of(output)?, system, subjects.names)? {
         Actor::Drive(index) => Arc::new(OfConstraint::drive(index)),
         Actor::Latch(index) => Arc::new(OfConstraint::latch(index)),
-        Actor::Element(element) => match system.element_quantity(element, Of::Power) {
-            Some(measured) => Arc::new(Measured(measured)),
-            None => Arc::new(OfElement(element)),
+        Actor::Elements(elements) => match elements[..] {
+            [element] => match system.element_quantity(element, Of::Power) {
+                Some(measured) => Arc::new(Measured(measured)),
+                None => Arc::new(OfElement(element)),
+            },
+            _ => Arc::new(OfSet(elements)),
         },
     })
 }
@@ -84,6 +88,15 @@ impl OutputQuantity for OfElement {
         add_argument(&mut own, unit, Argument::Signal(signal), at.system, at.motion());
         add_scaled(&mut own, &of_gradient(&gradient, (nodes, coordinates), at.system), size);
         Some(vec![own])
+    }
+}
+
+/// Power of a load that is spread over a set of nodes.
+struct OfSet(Vec<ElementId>);
+
+impl OutputQuantity for OfSet {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        out.push(self.0.iter().map(|&element| at.system.power(element, at.motion())).sum());
     }
 }
 

@@ -19,6 +19,8 @@ pub struct BuiltShell {
     pub surface: ShellSurface,
     /// Layers of each element; one for all if they are the same.
     pub(crate) plies: Vec<Arc<[Ply]>>,
+    /// Place of the middle of its thickness along the normal [m].
+    pub(crate) offset: f64,
 }
 
 impl BuiltShell {

@@ -1,5 +1,5 @@
 //! Forces, moments and stresses of shells at their nodes: those at the Gauss points of the elements, extrapolated to the node, and their mean
-//! over its elements by area.
+//! over its elements by area. Where elements differ at a node, the mean has an error of about this difference.
 
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ pub(crate) const SHELL_MOMENT: Declaration = Declaration {
 /// Registry entry.
 pub(crate) const SHELL_STRESS: Declaration = Declaration {
     word: "shell_stress",
-    summary: "Stresses at both faces of a shell, local axes, and von Mises stresses at the faces and in the middle.",
+    summary: "Stresses at both faces of a shell, local axes, von Mises stresses at the faces and in the middle, and an estimate of their error.",
     subject: Subject::ShellNode,
     features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[
@@ -53,6 +53,7 @@ pub(crate) const SHELL_STRESS: Declaration = Declaration {
         ("mises_top", "Pa"),
         ("mises_middle", "Pa"),
         ("mises_bottom", "Pa"),
+        ("error", "Pa"),
     ],
     build: Build::System(OF_ELEMENTS, |output, _, subjects| of(output, subjects, What::Stress)),
 };
@@ -70,6 +71,8 @@ struct Corner {
     element: Arc<Shell>,
     at: usize,
     plies: Arc<[Ply]>,
+    /// Place of the middle of the thickness along the normal [m].
+    offset: f64,
     /// Its share in the mean.
     share: f64,
 }
@@ -104,9 +107,23 @@ impl BuiltShell {
         let of = |(index, element): (usize, &[usize; 4])| {
             let at = element.iter().position(|&own| own == node)?;
             let (element, plies) = (Arc::clone(&self.surface.elements[index]), self.plies_of(index));
-            Some(Corner { share: element.area(), element, at, plies })
+            Some(Corner { share: element.area(), element, at, plies, offset: self.offset })
         };
         self.mesh.elements.iter().enumerate().filter_map(of).collect()
+    }
+}
+
+impl Corner {
+    /// Stresses 11, 22, 12 at the top, in the middle and at the bottom.
+    fn stresses(&self, strains: &[f64; 8]) -> [[f64; 3]; 3] {
+        let Self { plies, offset, .. } = self;
+        let half = 0.5 * plies.iter().map(|ply| ply.thickness).sum::<f64>();
+        let places = [(plies.len() - 1, half), (plies.len() / 2, 0.0), (0, -half)];
+        places.map(|(ply, height)| {
+            let (stiffness, height) = (plies[ply].in_plane(), offset + height);
+            let stretched = |j: usize| strains[j] + height * strains[3 + j];
+            std::array::from_fn(|k| (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum())
+        })
     }
 }
 
@@ -118,26 +135,18 @@ impl OutputQuantity for OfShell {
     }
 
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let strains = |corner: &Corner| corner.element.strains_at_corner(at.motion(), corner.at);
         let mut resultants = [0.0; 8];
-        let [mut top, mut middle, mut bottom] = [[0.0; 3]; 3];
-        for Corner { element, at: corner, plies, share } in &self.corners {
-            let strains = element.strains_at_corner(at.motion(), *corner);
-            let law = &element.law().stiffness;
+        let mut stresses = [[0.0; 3]; 3];
+        for corner in &self.corners {
+            let strains = strains(corner);
+            let law = &corner.element.law().stiffness;
             for (k, resultant) in resultants.iter_mut().enumerate() {
-                *resultant += share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
+                *resultant += corner.share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
             }
-            let half = 0.5 * plies.iter().map(|ply| ply.thickness).sum::<f64>();
-            let add = |sums: &mut [f64; 3], ply: &Ply, height: f64| {
-                let stiffness = ply.in_plane();
-                for (k, sum) in sums.iter_mut().enumerate() {
-                    let stretched = |j: usize| strains[j] + height * strains[3 + j];
-                    *sum += share * (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum::<f64>();
-                }
-            };
-            if let (Some(first), Some(last)) = (plies.first(), plies.last()) {
-                add(&mut top, last, half);
-                add(&mut bottom, first, -half);
-                add(&mut middle, &plies[plies.len() / 2], 0.0);
+            let own = corner.stresses(&strains);
+            for (sum, stress) in stresses.iter_mut().flatten().zip(own.iter().flatten()) {
+                *sum += corner.share * stress;
             }
         }
         let [n11, n22, n12, m11, m22, m12, q13, q23] = resultants;
@@ -145,8 +154,17 @@ impl OutputQuantity for OfShell {
             What::Force => out.extend([n11, n22, n12, q13, q23]),
             What::Moment => out.extend([m11, m22, m12]),
             What::Stress => {
+                let [top, _, bottom] = stresses;
                 out.extend(top.into_iter().chain(bottom));
-                out.extend([top, middle, bottom].map(von_mises));
+                out.extend(stresses.map(von_mises));
+                let apart = |own: &[[f64; 3]; 3], k: usize| {
+                    von_mises(std::array::from_fn(|j| own[k][j] - stresses[k][j]))
+                };
+                let errors = self.corners.iter().map(|corner| {
+                    let own = corner.stresses(&strains(corner));
+                    apart(&own, 0).max(apart(&own, 2))
+                });
+                out.push(errors.fold(0.0, f64::max));
             }
         }
     }

@@ -37,9 +37,9 @@ impl Accumulated for Work {
     }
 
     fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64 {
-        let work = match self.of {
-            Actor::Element(element) => step.work_of_element(element),
-            Actor::Drive(drive) => step.work_of_drive(drive),
+        let work = match &self.of {
+            Actor::Elements(elements) => elements.iter().map(|&element| step.work_of_element(element)).sum(),
+            Actor::Drive(drive) => step.work_of_drive(*drive),
             // It moves nothing while it is engaged.
             Actor::Latch(_) => 0.0,
         };

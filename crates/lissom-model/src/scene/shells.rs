@@ -19,6 +19,9 @@ pub struct Shell {
     pub elements: Vec<[usize; 4]>,
     /// Thickness of each element [m]; one for all if it is the same.
     pub thickness: Vec<f64>,
+    /// Place of the middle of its thickness along the normal [m].
+    #[serde(default)]
+    pub offset: f64,
     /// Axes of each node in the stress-free state: a quaternion, scalar first.
     pub axes: Vec<[f64; 4]>,
     /// Normals that the four nodes of each element carry, in the axes of the nodes; empty if all are the third axis.
@@ -69,6 +72,7 @@ pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
             positions: shell.mesh.positions.iter().map(|position| (*position).into()).collect(),
             elements: shell.mesh.elements.clone(),
             thickness: once((0..count).map(|element| shell.thickness(element)).collect()),
+            offset: shell.offset,
             axes: nodes.iter().map(|&node| places.frame(node).rotation.quaternion()).collect(),
             directors,
             directions: once(elements.iter().map(|element| element.first_direction().into()).collect()),

@@ -2,7 +2,9 @@
 
 mod dynamics;
 mod examples;
+mod linear;
 mod messages;
+mod sections;
 mod statics;
 
 /// A cantilever of 10 x 1 x 0.1 m, E = 1.2 MPa, with an end load.

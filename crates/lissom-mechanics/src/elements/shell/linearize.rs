@@ -152,6 +152,19 @@ pub(super) fn linearize<R: Real, C: Constants<R>>(
             out[i][j] = sum;
         }
     }
+    stressed(constants, (frames, &deformed), &of_edges, stress, out);
+}
+
+/// Adds the terms with stresses to a symmetric matrix of which the lower half is given, and completes its upper half.
+#[inline(always)]
+pub(super) fn stressed<R: Real, C: Constants<R>>(
+    constants: &C,
+    (frames, deformed): (&[Pose<R>; NODES], &Deformed<R>),
+    of_edges: &[EdgeGradients<R>; 4],
+    stress: &[R; STRAINS],
+    out: &mut Matrix<R>,
+) {
+    let zero = stress[0].like(0.0);
     for k in 0..4 {
         let edge = &deformed.edges[k];
         let own = &of_edges[k];
@@ -181,7 +194,7 @@ pub(super) fn linearize<R: Real, C: Constants<R>>(
             out[j][i] = out[i][j];
         }
     }
-    geometric(constants, frames, &deformed, stress, out);
+    geometric(constants, frames, deformed, stress, out);
 }
 
 /// Adds the terms with stresses that are no products of gradients.

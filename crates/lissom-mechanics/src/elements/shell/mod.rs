@@ -13,6 +13,7 @@
 mod blocks;
 mod condensed;
 mod constants;
+pub mod damping;
 mod forces;
 mod interpolation;
 mod linearize;

@@ -80,12 +80,12 @@ impl Ply {
 }
 
 impl ShellLaw {
-    /// A laminate of layers from the bottom to the top about the middle of its thickness, by classical laminate theory with transverse
-    /// shear.
-    pub fn laminate(plies: &[Ply]) -> Self {
+    /// A laminate of layers from the bottom to the top, with the middle of its thickness at `offset` [m] along the normal of the reference
+    /// surface, by classical laminate theory with transverse shear.
+    pub fn laminate(plies: &[Ply], offset: f64) -> Self {
         let mut stiffness = Matrix8::zeros();
         let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
-        let mut below = -0.5 * whole;
+        let mut below = offset - 0.5 * whole;
         let mut add = |row: usize, column: usize, block: &Matrix3<f64>| {
             let mut own = stiffness.fixed_view_mut::<3, 3>(row, column);
             own += block;

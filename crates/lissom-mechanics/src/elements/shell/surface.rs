@@ -6,6 +6,7 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 
 use super::Shell;
 use super::condensed::areas;
+use super::damping::ShellDamping;
 use super::reference::Reference;
 use super::section::{Ply, ShellLaw};
 use crate::elements::contribution::Contribution;
@@ -20,22 +21,28 @@ pub struct ShellSection {
     pub law: ShellLaw,
     /// Mass per area [kg/m²].
     pub mass: f64,
-    /// Moment of inertia per area of a line across the surface [kg].
+    /// Place of the mass along the normal [m].
+    pub center: f64,
+    /// Moment of inertia per area of a line across the surface about its centre of mass [kg].
     pub inertia: f64,
 }
 
 impl ShellSection {
-    /// A laminate of layers from the bottom to the top; one for a homogeneous shell.
-    pub fn laminate(plies: &[Ply]) -> Self {
+    /// A laminate of layers from the bottom to the top, with the middle of its thickness at `offset` [m] along the normal; one layer for
+    /// a homogeneous shell.
+    pub fn laminate(plies: &[Ply], offset: f64) -> Self {
         let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
-        let (mut mass, mut inertia, mut below) = (0.0, 0.0, -0.5 * whole);
+        let (mut moments, mut below) = ([0.0; 3], offset - 0.5 * whole);
         for ply in plies {
             let above = below + ply.thickness;
-            mass += ply.density * ply.thickness;
-            inertia += ply.density * (above.powi(3) - below.powi(3)) / 3.0;
+            moments[0] += ply.density * ply.thickness;
+            moments[1] += ply.density * (above * above - below * below) / 2.0;
+            moments[2] += ply.density * (above.powi(3) - below.powi(3)) / 3.0;
             below = above;
         }
-        Self { law: ShellLaw::laminate(plies), mass, inertia }
+        let [mass, first, second] = moments;
+        let center = if mass > 0.0 { first / mass } else { 0.0 };
+        Self { law: ShellLaw::laminate(plies, offset), mass, center, inertia: second - center * first }
     }
 }
 
@@ -53,6 +60,8 @@ pub struct SurfaceDescription<'a> {
     pub fold_angle: f64,
     /// Direction that is projected on each element to be its first local axis.
     pub direction: Option<Vector3>,
+    /// Damping in proportion to the stiffness [s].
+    pub damping: f64,
     /// Section of each element.
     pub section: &'a dyn Fn(usize) -> ShellSection,
 }
@@ -87,11 +96,12 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
     let mut elements = Vec::with_capacity(references.len());
     for (index, own) in surface.elements.iter().enumerate() {
         let section = (surface.section)(index);
-        for (&node, area) in own.iter().zip(areas(&references[index]).iter()) {
+        for (i, (&node, area)) in own.iter().zip(areas(&references[index]).iter()).enumerate() {
             own_areas[node] += area;
+            let center = section.center * frames[node].rotation.apply_inverse(&directors[index][i]);
             // Equal about all axes, also about the normal: no fast rotation about it, and no moment of a rotating node.
             let inertia = Matrix3::from_diagonal_element(section.inertia * area);
-            let mass = Inertia::of_rigid_body(section.mass * area, &Vector3::zeros(), &inertia);
+            let mass = Inertia::of_rigid_body(section.mass * area, &center, &inertia);
             contribution.add_inertia(nodes[node], mass);
         }
         let shell = Shell::new(
@@ -101,8 +111,12 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
             surface.direction,
             section.law,
         );
-        elements.push(Arc::new(shell.clone()));
+        let element = Arc::new(shell.clone());
         contribution = contribution.with(shell);
+        if surface.damping > 0.0 {
+            contribution = contribution.with(ShellDamping::new(Arc::clone(&element), surface.damping));
+        }
+        elements.push(element);
     }
     (contribution, ShellSurface { nodes, areas: own_areas, elements })
 }

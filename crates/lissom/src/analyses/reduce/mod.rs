@@ -14,7 +14,7 @@ use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linearized::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_model::Document;
-use lissom_model::document::{Attachment, Component, NodeReference};
+use lissom_model::document::{Attachment, Component, NodeReference, ShellPlace};
 use lissom_model::lower::Names;
 use serde::Deserialize;
 
@@ -234,9 +234,36 @@ fn total(matrices: &ReducedMatrices, interfaces: usize, axis: usize) -> f64 {
 }
 
 /// The node of this name: a body, a point mass, an interface, or a position on a beam.
+/// Names of nodes that were separated at every comma, also at that between u and v.
+fn joined_places(pieces: &[String]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for piece in pieces {
+        match names.last_mut() {
+            Some(before) if before.contains('@') && piece.trim().parse::<f64>().is_ok() => {
+                *before = format!("{before},{piece}");
+            }
+            _ => names.push(piece.clone()),
+        }
+    }
+    names
+}
+
 fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     if let Some(&node) = names.nodes.get(name) {
         return Ok(node);
+    }
+    if let Some((shell, place)) = name.split_once('@')
+        && let Some(shell) = names.shells.get(shell)
+    {
+        let numbers: Vec<f64> = place.split(',').filter_map(|number| number.trim().parse().ok()).collect();
+        let node = match numbers[..] {
+            [u, v] => shell.node_at(&ShellPlace::Fractions([u, v])),
+            _ => None,
+        };
+        return match node {
+            Some(node) => Ok(node),
+            None => question(format!("`{name}` is no node: write u and v of one, as \"panel@0.5,1\"")),
+        };
     }
     if let Some((shell, set)) = name.rsplit_once('.')
         && let Some(shell) = names.shells.get(shell)
@@ -352,17 +379,17 @@ impl Chosen {
         if request.parts.is_empty() {
             parts.extend(all.into_iter().cloned());
         }
-        if request.interfaces.is_empty() {
+        let interfaces = joined_places(&request.interfaces);
+        if interfaces.is_empty() {
             return question("specify at least one interface by `--interfaces`, such as beam.start,beam.end");
         }
         let nodes: Vec<NodeId> =
-            request.interfaces.iter().map(|name| node_of(names, name)).collect::<Result<_, _>>()?;
+            interfaces.iter().map(|name| node_of(names, name)).collect::<Result<_, _>>()?;
         for (index, node) in nodes.iter().enumerate() {
             if nodes[..index].contains(node) {
-                return question(format!("the interface `{}` is specified twice", request.interfaces[index]));
+                return question(format!("the interface `{}` is specified twice", interfaces[index]));
             }
         }
-        let interfaces = request.interfaces.clone();
         Ok(Self { parts, interfaces, nodes, names: names.clone() })
     }
 

@@ -16,6 +16,8 @@ pub struct ShellElements {
     firsts: Vec<[Vector3; 4]>,
     /// Thickness of each element [m].
     thickness: Vec<f64>,
+    /// Place of the middle of the thickness along the normal [m].
+    offset: f64,
     is_homogeneous: bool,
 }
 
@@ -64,6 +66,7 @@ impl ShellElements {
             firsts: shell.elements.iter().enumerate().map(first).collect(),
             elements: shell.elements.iter().enumerate().map(element).collect(),
             thickness: (0..shell.elements.len()).map(|index| of(&shell.thickness, index)).collect(),
+            offset: shell.offset,
             is_homogeneous: shell.is_homogeneous,
         }
     }
@@ -89,7 +92,9 @@ impl ShellElements {
             Layer::Middle => 0.0,
             Layer::Bottom => -6.0,
         };
-        let stress = |k: usize| (resultants[k] + bending * resultants[3 + k] / thickness) / thickness;
+        // Moments are about the surface of the nodes.
+        let moment = |k: usize| resultants[3 + k] - self.offset * resultants[k];
+        let stress = |k: usize| (resultants[k] + bending * moment(k) / thickness) / thickness;
         self.is_homogeneous.then(|| von_mises([0, 1, 2].map(stress)))
     }
 
