@@ -289,7 +289,7 @@ class ShellMoment(Output):
 
 @dataclass(kw_only=True, slots=True)
 class ShellStress(Output):
-    """Stresses at both faces of a shell, local axes, and von Mises stresses at the faces and in the middle.
+    """Stresses at both faces of a shell, local axes, von Mises stresses at the faces and in the middle, and an estimate of their error.
 
     Args:
         of: the node of a shell, such as "panel@0.5,1"; a node.

@@ -61,6 +61,8 @@ class Shell(Entry):
         join: whether nodes at the same position are one, as along the seam of a tube; default `false`; `true` or `false`, or nothing.
         thickness: a number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements [m]; a number or an expression of `u` and `v`, or nothing.
         material: of `thickness`, and of plies without their own; the name of an entry of `[materials]`, or nothing.
+        offset: place of the middle of the thickness along the normal of the surface; default 0 [m]; a number, or nothing.
+        damping: damping in proportion to the stiffness; default 0 [s]; a number ≥ 0, or nothing.
         plies: layers of a laminate from the bottom to the top of the normal; a list of layers, or nothing.
         direction: projected on the surface, the first local axis, from which angles of plies count; default that of each element; a direction, or nothing.
         fold_angle: largest angle between elements of a mesh that count as one smooth surface; default 0.52 [rad]; a number from 0 to 3.2, or nothing.
@@ -81,6 +83,8 @@ class Shell(Entry):
     join: bool | None = None
     thickness: Number | None = None
     material: str | None = None
+    offset: Number | None = None
+    damping: Number | None = None
     plies: list[Table] | None = None
     direction: Vector | str | None = None
     fold_angle: Number | None = None

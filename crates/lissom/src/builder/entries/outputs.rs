@@ -149,7 +149,7 @@ entry! {
 }
 
 entry! {
-    /// Stresses at both faces of a shell, local axes, and von Mises stresses at the faces and in the middle.
+    /// Stresses at both faces of a shell, local axes, von Mises stresses at the faces and in the middle, and an estimate of their error.
     ShellStress => OutputId, "shell_stress";
     ["kind" = "shell_stress"]
     /// With what must be given.

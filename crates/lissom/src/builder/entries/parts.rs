@@ -63,6 +63,10 @@ entry! {
     thickness: Expression = "thickness";
     /// Of `thickness`, and of plies without their own.
     material: MaterialId = "material";
+    /// Place of the middle of the thickness along the normal of the surface; default 0 \[m\].
+    offset: f64 = "offset";
+    /// Damping in proportion to the stiffness; default 0 \[s\].
+    damping: f64 = "damping";
     /// Projected on the surface, the first local axis, from which angles of plies count; default that of each element.
     direction: [f64; 3] = "direction";
     /// Largest angle between elements of a mesh that count as one smooth surface; default 0.52 \[rad\].
