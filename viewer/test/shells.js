@@ -272,7 +272,7 @@ export const shells = ({ folder, view, open, comparePlaces, plays, draws, select
       await page.selectOption("#frame", "part sheet");
       await page.locator("#names").check();
       await page.waitForFunction(() => [...document.querySelectorAll(".labels span")].some(({ textContent }) => textContent === "sheet"));
-      // A cut hides half of it.
+      // A cut hides what lies beyond it.
       const drawn = () =>
         page.evaluate(() => {
           const { renderer } = lissom.stage;
@@ -290,8 +290,10 @@ export const shells = ({ folder, view, open, comparePlaces, plays, draws, select
       const whole = await drawn();
       await page.selectOption("#cut", "0");
       assert.match(await page.locator("#cut-place").innerText(), /^x < [\d.]+ m$/);
-      const half = await drawn();
-      assert.ok(half > 0.2 * whole && half < 0.8 * whole, `${half} of ${whole} pixels`);
+      const most = await drawn();
+      await page.locator("#cut-at").fill("0.1");
+      const least = await drawn();
+      assert.ok(least < 0.7 * most && most < 0.95 * whole, `${least}, ${most} of ${whole} pixels`);
       await page.selectOption("#cut", "");
       assert.equal(await drawn(), whole);
       await page.locator("#grid").check();
