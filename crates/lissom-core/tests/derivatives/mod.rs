@@ -16,6 +16,7 @@ mod neighbours;
 mod ports;
 mod rigid_contacts;
 mod rolling;
+mod shell_contacts;
 mod shells;
 mod superelement;
 

@@ -80,10 +80,10 @@ pub struct ContactFriction {
 
 /// The part of the sliding velocity by which bristles yield, with its derivatives by sliding velocity and deflection.
 #[derive(Default)]
-struct Yielding {
-    rate: Vector3,
-    by_sliding: Matrix3,
-    by_bristles: Matrix3,
+pub(super) struct Yielding {
+    pub(super) rate: Vector3,
+    pub(super) by_sliding: Matrix3,
+    pub(super) by_bristles: Matrix3,
 }
 
 /// Friction per normal force, with its derivatives by the sliding velocity and by the tangential deflection of the bristles.
@@ -100,7 +100,7 @@ impl ContactFriction {
         Self { bristles: (1..=3).map(state).collect(), ..*self }
     }
 
-    fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {
+    pub(super) fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {
         let length = bristles.norm();
         let beyond = (length / self.deflection - ELASTIC_SHARE) / (1.0 - ELASTIC_SHARE);
         if beyond <= 0.0 {
@@ -125,6 +125,11 @@ impl ContactFriction {
             by_bristles: slope * along * outer
                 + share * (direction * (sliding.transpose() * turn) + along * turn),
         }
+    }
+
+    /// Whether bristles of this deflection [m] slip.
+    pub(super) fn slips(&self, bristles: &Vector3) -> bool {
+        bristles.norm() > SLIPPING * self.deflection
     }
 
     /// Opposed to the sliding of the tip.
@@ -347,10 +352,7 @@ impl Contact {
             point: self.frames.base_frame(at).transform_point(&touch.gap.point),
             is_touching: touch.is_touching,
             is_sliding: touch.is_touching
-                && self
-                    .friction
-                    .as_ref()
-                    .is_none_or(|friction| touch.bristles.norm() > SLIPPING * friction.deflection),
+                && self.friction.as_ref().is_none_or(|friction| friction.slips(&touch.bristles)),
         }
     }
 

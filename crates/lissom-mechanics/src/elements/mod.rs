@@ -26,6 +26,7 @@ pub mod kind;
 mod kinds;
 pub mod latch;
 mod law_of_distance;
+mod least_distance;
 pub mod local_load;
 pub mod moment;
 pub mod nearest_contact;

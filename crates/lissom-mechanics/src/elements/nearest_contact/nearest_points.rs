@@ -9,15 +9,8 @@
 use lissom_motion::Vector3;
 
 use super::carried_curve::{CarriedCurve, Weights};
+use crate::elements::least_distance::{Least, Square, least};
 use crate::joints::centerline::SUPPORT;
-use crate::round_off;
-
-/// Iterations after which the nearest points are known to all digits.
-const MAX_ITERATIONS: usize = 60;
-/// Halvings of a step that does not approach.
-const MAX_HALVINGS: usize = 30;
-/// Curves are parallel where the determinant is below this fraction of the product of its diagonal.
-const PARALLEL: f64 = 1e-10;
 
 /// Smaller part of an interval of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
@@ -55,15 +48,6 @@ impl Placed<'_> {
     }
 }
 
-/// D·D/2, its gradient, and its second derivatives.
-struct Square {
-    value: f64,
-    slope: [f64; 2],
-    bend: [[f64; 2]; 2],
-    /// The second derivatives of straight lines, never negative.
-    straight: [[f64; 2]; 2],
-}
-
 fn square([tip, base]: &[OnCurve; 2]) -> Square {
     let d = tip.place[0] - base.place[0];
     let ([_, x1, x2], [_, y1, y2]) = (tip.place, base.place);
@@ -73,62 +57,12 @@ fn square([tip, base]: &[OnCurve; 2]) -> Square {
     Square { value: 0.5 * d.norm_squared(), slope: [d.dot(&x1), -d.dot(&y1)], bend, straight }
 }
 
-/// The solution of a symmetric system of the free parameters; none if it is not positive definite.
-fn solved(matrix: &[[f64; 2]; 2], slope: [f64; 2], is_free: [bool; 2]) -> Option<[f64; 2]> {
-    let [[a, b], [_, d]] = *matrix;
-    match is_free {
-        [true, true] => {
-            let determinant = a * d - b * b;
-            (a > 0.0 && determinant > PARALLEL * a * d).then(|| {
-                [(b * slope[1] - d * slope[0]) / determinant, (b * slope[0] - a * slope[1]) / determinant]
-            })
-        }
-        [true, false] => (a > 0.0).then(|| [-slope[0] / a, 0.0]),
-        [false, true] => (d > 0.0).then(|| [0.0, -slope[1] / d]),
-        [false, false] => Some([0.0; 2]),
-    }
-}
-
 /// The nearest points of two curves.
 pub(super) fn nearest(curves: &[Placed<'_>; 2]) -> Nearest {
     let ends = [0, 1].map(|k| curves[k].curve.ends());
     let both = |parameters: [f64; 2]| [0, 1].map(|k| curves[k].at(parameters[k]));
-    let clamped =
-        |parameters: [f64; 2]| [0, 1].map(|k: usize| f64::clamp(parameters[k], ends[k][0], ends[k][1]));
-    let middle = ends.map(|[low, high]| 0.5 * (low + high));
-    let mut on = both(middle);
-    let mut is_free = [false; 2];
-    for _ in 0..MAX_ITERATIONS {
-        let at = square(&on);
-        let here = on.map(|own| own.parameter);
-        is_free = [0, 1].map(|k| {
-            let [low, high] = ends[k];
-            low < high && !(here[k] <= low && at.slope[k] >= 0.0) && !(here[k] >= high && at.slope[k] <= 0.0)
-        });
-        // Of parallel lines one parameter after the other.
-        let step = solved(&at.bend, at.slope, is_free)
-            .or_else(|| solved(&at.straight, at.slope, is_free))
-            .or_else(|| solved(&at.straight, at.slope, [is_free[0], false]))
-            .unwrap_or([0.0; 2]);
-        let mut share = 1.0;
-        let mut next = both(clamped([here[0] + step[0], here[1] + step[1]]));
-        for _ in 0..MAX_HALVINGS {
-            if square(&next).value <= at.value * (1.0 + round_off::SQUARED_DISTANCE) {
-                break;
-            }
-            share *= 0.5;
-            next = both(clamped([here[0] + share * step[0], here[1] + share * step[1]]));
-        }
-        let changes = [0, 1].map(|k| (next[k].parameter - here[k]).abs());
-        let is_small = |k: usize| {
-            changes[k] <= round_off::CURVE_PARAMETER * (ends[k][1] - ends[k][0] + ends[k][1].abs())
-        };
-        if is_small(0) && is_small(1) {
-            break;
-        }
-        on = next;
-    }
-    Nearest { on, is_free }
+    let Least { parameters, is_free } = least(ends, |parameters| square(&both(parameters)));
+    Nearest { on: both(parameters), is_free }
 }
 
 /// The distance between two straight lines from their ends: that of the tip to the origin and `to`.

@@ -14,6 +14,7 @@ mod blocks;
 mod condensed;
 mod constants;
 pub mod damping;
+pub mod contact;
 mod forces;
 mod interpolation;
 mod linearize;
@@ -72,6 +73,11 @@ impl Shell {
         let poses = frames.each_ref().map(Pose::from);
         let natural = Deformed::at(&numbers, &poses).raw_strains();
         Self { nodes, numbers: numbers.with_natural(&natural), reference, law }
+    }
+
+    /// Normal of the surface at a node, in the axes of the node.
+    fn director(&self, node: usize) -> Vector3 {
+        self.numbers.director(node, 2).into()
     }
 
     fn frames(&self, at: &Kinematics) -> [Pose<f64>; NODES] {
