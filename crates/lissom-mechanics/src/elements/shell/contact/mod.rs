@@ -31,14 +31,10 @@ use crate::signals::measurement::Gradient;
 use patch::{Patch, across, difference, none, plus};
 use touch::{Foot, Touch, foot};
 
-/// Nodes of ball and element, local unknowns of a node, and states of the bristles.
-const BODIES: usize = 1 + NODES;
-const POSES: usize = 6 * BODIES;
+/// Unknowns of the nodes of ball and element.
+const POSES: usize = 6 * (1 + NODES);
+/// States of the bristles.
 const STATES: usize = 3;
-/// Poses, twists, bristles.
-const DIRECTIONS: usize = 2 * POSES + STATES;
-/// Positions of the nodes of the element relative to the centre.
-const ARGUMENTS: usize = 3 * NODES;
 
 /// A ball and an element of a shell that may touch.
 #[derive(Clone, Debug)]
@@ -302,24 +298,40 @@ impl ShellContact {
             .chain((0..self.bristles.len()).map(move |k| (POSES + k, count + k)))
     }
 
-    fn is_touching(&self, at: &Kinematics, distance: f64) -> bool {
-        is_on_upper_branch(self.switch_states.of(at).first(), self.radius - distance)
+    /// The penetration [m], negative where a neighbour has the whole contact: a ball that passes by begins no contact. It is then small,
+    /// so that it is no impact.
+    fn depth(&self, touch: &Touch<f64>) -> f64 {
+        let depth = self.radius - touch.distance;
+        if touch.within < 0.0 { depth.min(1e-3 * self.radius * touch.within) } else { depth }
+    }
+
+    /// Ball and element with the touch of a foot.
+    fn touch(&self, at: &Kinematics, foot: &Foot) -> (Moved<f64>, Touch<f64>) {
+        let moved = self.moved(at, |_| 0.0);
+        let touch = foot.touch(&moved.patch, moved.centre, &self.patch.overlaps);
+        (moved, touch)
+    }
+
+    fn is_touching(&self, at: &Kinematics, touch: &Touch<f64>) -> bool {
+        is_on_upper_branch(self.switch_states.of(at).first(), self.depth(touch))
     }
 
     /// The foot of a ball that touches.
     fn touching(&self, at: &Kinematics) -> Option<Foot> {
-        if frozen_branch(self.switch_states.of(at).first()) == Some(false) {
+        let frozen = frozen_branch(self.switch_states.of(at).first());
+        if frozen == Some(false) {
             return None;
         }
-        Some(self.foot(at)).filter(|foot| self.is_touching(at, foot.distance))
+        let foot = self.foot(at);
+        let is_touching = frozen.unwrap_or_else(|| self.depth(&self.touch(at, &foot).1) > 0.0);
+        is_touching.then_some(foot)
     }
 
     /// What acts on the shell.
     pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
         let foot = self.foot(at);
-        let moved = self.moved(at, |_| 0.0);
-        let touch = foot.touch(&moved.patch, moved.centre, &self.patch.overlaps);
-        let is_touching = self.is_touching(at, foot.distance);
+        let (moved, touch) = self.touch(at, &foot);
+        let is_touching = self.is_touching(at, &touch);
         let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
         let [arm, sliding] = self.sliding(&moved, &touch);
         let friction = self.friction.as_ref().map_or_else(Vector3::zeros, |friction| {
@@ -341,9 +353,8 @@ impl ShellContact {
     /// Gap [m], its rate [m/s] and the normal force [N].
     pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
         let foot = self.foot(at);
-        let moved = self.moved(at, |_| 0.0);
-        let touch = foot.touch(&moved.patch, moved.centre, &self.patch.overlaps);
-        let is_touching = self.is_touching(at, foot.distance);
+        let (moved, touch) = self.touch(at, &foot);
+        let is_touching = self.is_touching(at, &touch);
         let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
         [foot.distance - self.radius, moved.rate(&touch), normal]
     }
@@ -378,7 +389,8 @@ impl Element for ShellContact {
             (size - STATES..size).for_each(|k| out.damping[k * size + k] += 1.0);
         }
         let Some(foot) = self.touching(at) else { return };
-        let own = self.local(at, &foot, |k| Dual::<DIRECTIONS>::variable(0.0, k));
+        // By poses, twists and bristles.
+        let own = self.local(at, &foot, |k| Dual::<{ 2 * POSES + STATES }>::variable(0.0, k));
         for (k, row) in self.rows() {
             for (direction, column) in self.rows() {
                 let (by_place, by_rate) = if direction < POSES {
@@ -394,8 +406,7 @@ impl Element for ShellContact {
 
     fn energy(&self, at: &Kinematics) -> Energy {
         let Some(foot) = self.touching(at) else { return Energy::default() };
-        let moved = self.moved(at, |_| 0.0);
-        let touch = foot.touch(&moved.patch, moved.centre, &self.patch.overlaps);
+        let (moved, touch) = self.touch(at, &foot);
         let depth = self.radius - foot.distance;
         let [force, ..] = self.compliance.force(depth, 0.0, 0.0);
         let of_bristles = force * self.deflected(&moved.bristle.into()).0;
@@ -444,13 +455,14 @@ impl ForceLaws for ShellContact {
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        let distance = self.far(at).unwrap_or_else(|| self.foot(at).distance);
-        out.push((self.radius - distance).into());
+        let near = || self.depth(&self.touch(at, &self.foot(at)).1);
+        out.push(self.far(at).map_or_else(near, |distance| self.radius - distance).into());
     }
 
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
         let centre = self.centre(at);
-        let mut arguments = [0.0; ARGUMENTS];
+        // Positions of the nodes relative to the centre.
+        let mut arguments = [0.0; 3 * NODES];
         for (own, node) in arguments.chunks_exact_mut(3).zip(self.patch.nodes) {
             own.copy_from_slice((at.nodes[node].frame.position - centre).as_slice());
         }
@@ -463,8 +475,7 @@ impl StrainSlopes for ShellContact {
     /// Friction is not the derivative of the energy of the bristles.
     fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
         let Some(foot) = self.touching(fall) else { return };
-        let moved = self.moved(fall, |_| 0.0);
-        let touch = foot.touch(&moved.patch, moved.centre, &self.patch.overlaps);
+        let (moved, touch) = self.touch(fall, &foot);
         let [force, by_depth, _] = self.compliance.force(self.radius - foot.distance, 0.0, 0.0);
         let (deflected, by_bristle) = self.deflected(&moved.bristle.into());
         let along = Vector3::from(touch.outwards);
@@ -514,13 +525,13 @@ impl Distance for FlatDistance {
         let far = out_of_reach(&positions, &Vector3::zeros(), self.radius);
         let distance = far.unwrap_or_else(|| {
             let patch = Patch { positions: positions.map(Into::into), directors: [[0.0; 3]; NODES] };
-            foot(&patch, [0.0; 3], &[[0.0; 2]; 2]).distance
+            foot(&patch, [0.0; 3], &[[None; 2]; 2]).distance
         });
         distance - self.radius
     }
 
     fn range(&self, arguments: &[Interval]) -> Interval {
-        let middle: [f64; ARGUMENTS] = std::array::from_fn(|k| 0.5 * (arguments[k][0] + arguments[k][1]));
+        let middle: [f64; 3 * NODES] = std::array::from_fn(|k| 0.5 * (arguments[k][0] + arguments[k][1]));
         let half =
             |own: &[Interval]| own.iter().map(|[low, high]| 0.25 * (high - low).powi(2)).sum::<f64>().sqrt();
         let change = arguments.chunks_exact(3).map(half).fold(0.0, f64::max);

@@ -7,7 +7,7 @@ use lissom_motion::{Rotation, Vector3};
 use super::super::Shell;
 use super::super::quadrilateral::{EDGES, NODES};
 use super::super::surface::ShellSurface;
-use super::touch::Overlaps;
+use super::touch::{Overlap, Overlaps};
 use crate::elements::InitialModel;
 use crate::kinematics::NodeId;
 
@@ -44,7 +44,7 @@ pub fn contact_patches(model: &InitialModel, surface: &ShellSurface) -> Vec<Cont
             sides.entry([a.min(b), a.max(b)]).or_default().push((index, edge));
         }
     }
-    let mut overlaps = vec![[[0.0; 2]; 2]; surface.elements.len()];
+    let mut overlaps: Vec<Overlaps> = vec![[[None; 2]; 2]; surface.elements.len()];
     for both in sides.values() {
         let &[(one, edge), (other, opposite)] = both.as_slice() else { continue };
         let elements = [&surface.elements[one], &surface.elements[other]];
@@ -56,8 +56,11 @@ pub fn contact_patches(model: &InitialModel, surface: &ShellSurface) -> Vec<Cont
             let sizes = [size(elements[0], edge), size(elements[1], opposite)];
             let width = OVERLAP * sizes[0].min(sizes[1]);
             // Edges 0 and 1 are at s = -1 and 1, edges 2 and 3 at r = -1 and 1.
-            overlaps[one][1 - edge / 2][edge % 2] = width / sizes[0];
-            overlaps[other][1 - opposite / 2][opposite % 2] = width / sizes[1];
+            let sides = [(one, edge, sizes[0], true), (other, opposite, sizes[1], false)];
+            for (element, edge, size, has_edge) in sides {
+                let overlap = Overlap { width: width / size, has_edge };
+                overlaps[element][1 - edge / 2][edge % 2] = Some(overlap);
+            }
         }
     }
     let patch = |(own, overlaps): (&std::sync::Arc<Shell>, Overlaps)| ContactPatch {

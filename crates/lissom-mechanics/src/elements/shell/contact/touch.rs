@@ -14,9 +14,19 @@
 use super::patch::{Patch, Spot, difference, square};
 use crate::dual::{Number, Three, dot, times};
 use crate::elements::least_distance::{Least, least};
+use crate::round_off;
 
-/// Half widths ω of the overlap with the neighbours at the edges r = -1, 1 and s = -1, 1, in r or s; zero without a neighbour.
-pub(super) type Overlaps = [[f64; 2]; 2];
+/// Overlap with a neighbour at an edge; none without a neighbour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Overlap {
+    /// Half its width ω, in r or s.
+    pub(super) width: f64,
+    /// Whether the edge itself belongs to this element.
+    pub(super) has_edge: bool,
+}
+
+/// Those at the edges r = -1, 1 and s = -1, 1.
+pub(super) type Overlaps = [[Option<Overlap>; 2]; 2];
 
 /// The point of an element that is nearest to a centre.
 pub(super) struct Foot {
@@ -47,12 +57,13 @@ fn inverse<T: Number>([[a, b], [_, d]]: [[T; 2]; 2], are_free: [bool; 2]) -> [[T
 
 /// The point of a patch that is nearest to a centre, up to a quarter of an element beyond edges with a neighbour.
 pub(super) fn foot(patch: &Patch<f64>, centre: Three<f64>, overlaps: &Overlaps) -> Foot {
-    let end = |overlap: f64| if overlap > 0.0 { 1.5 } else { 1.0 };
+    let end = |overlap: Option<Overlap>| if overlap.is_some() { 1.5 } else { 1.0 };
     let ends = overlaps.map(|[before, after]| [-end(before), end(after)]);
     let of = |parameters: [f64; 2]| square(&patch.at(parameters), centre);
     let Least { parameters, is_free } = least(ends, of);
     let there = of(parameters);
-    let continues = [0, 1].map(|k: usize| is_free[k] || overlaps[k][usize::from(parameters[k] > 0.0)] > 0.0);
+    let continues =
+        [0, 1].map(|k: usize| is_free[k] || overlaps[k][usize::from(parameters[k] > 0.0)].is_some());
     let distance = (2.0 * there.value).sqrt();
     Foot { parameters, inverse: inverse(there.bend, is_free), continues, distance }
 }
@@ -66,6 +77,8 @@ pub(super) struct Touch<T> {
     pub(super) outwards: Three<T>,
     /// χ.
     pub(super) share: T,
+    /// How far q is within the overlaps, in r or s: the share is zero where this is negative.
+    pub(super) within: f64,
     /// Whether the element has more of the contact than its neighbours.
     pub(super) is_own: bool,
     /// 1 on the side of the normal, otherwise -1.
@@ -92,9 +105,17 @@ impl Foot {
         let spot = patch.at(parameters);
         let away = difference(centre, spot.place);
         let distance = dot(away, away).square_root();
-        let (share, is_own) = self.share(&spot, away, (parameters, overlaps));
+        let (share, within, is_own) = self.share(&spot, away, (parameters, overlaps));
         let side = if dot(away, spot.normal).value() < 0.0 { -1.0 } else { 1.0 };
-        Touch { distance, outwards: times(away, T::constant(1.0) / distance), share, is_own, side, spot }
+        Touch {
+            distance,
+            outwards: times(away, T::constant(1.0) / distance),
+            share,
+            within,
+            is_own,
+            side,
+            spot,
+        }
     }
 
     fn share<T: Number>(
@@ -102,29 +123,28 @@ impl Foot {
         spot: &Spot<T>,
         away: Three<T>,
         (parameters, overlaps): ([T; 2], &Overlaps),
-    ) -> (T, bool) {
+    ) -> (T, f64, bool) {
         let Spot { along, normal, normal_by, .. } = spot;
         let height = dot(away, *normal);
         let metric = |j: usize, k: usize| dot(along[j], along[k]) + height * dot(along[j], normal_by[k]);
         let mixed = metric(0, 1);
         let inverse = inverse([[metric(0, 0), mixed], [mixed, metric(1, 1)]], self.continues);
         let slopes = along.map(|along| dot(away, along) - height * dot(*normal, along));
-        let (mut share, mut is_own) = (T::constant(1.0), true);
+        let (mut share, mut within, mut is_own) = (T::constant(1.0), f64::INFINITY, true);
         for k in 0..2 {
             let place = parameters[k] + inverse[k][0] * slopes[0] + inverse[k][1] * slopes[1];
             for (overlap, sign) in overlaps[k].into_iter().zip([-1.0, 1.0]) {
-                if overlap == 0.0 {
-                    continue;
-                }
+                let Some(Overlap { width, has_edge }) = overlap else { continue };
                 let inside = place.scaled(-sign).plus(1.0);
-                // An edge belongs to one of both elements.
-                is_own &= if sign > 0.0 { inside.value() >= 0.0 } else { inside.value() > 0.0 };
-                let u = inside.scaled(0.5 / overlap).plus(0.5);
+                within = within.min(inside.value() + width);
+                // Within round-off an edge belongs to one of both elements.
+                is_own &= inside.value() > if has_edge { -round_off::POSITION } else { round_off::POSITION };
+                let u = inside.scaled(0.5 / width).plus(0.5);
                 let clamped = u.value().clamp(0.0, 1.0);
                 share = share
                     * u.composed(clamped * clamped * (3.0 - 2.0 * clamped), 6.0 * clamped * (1.0 - clamped));
             }
         }
-        (share, is_own)
+        (share, within, is_own)
     }
 }
