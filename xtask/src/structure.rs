@@ -395,18 +395,18 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 443;
+    const MAX_CONSTANTS: usize = 446;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 12] = [
         ("lissom-motion", 3040),
         ("lissom-solver", 7010),
-        ("lissom-mechanics", 36_030),
+        ("lissom-mechanics", 37_000),
         ("lissom-system", 5410),
         ("lissom-core", 31_950),
         ("lissom-drawing", 1720),
         ("lissom-mesh", 3070),
-        ("lissom-model", 34_460),
+        ("lissom-model", 34_790),
         ("lissom", 26_530),
         ("lissom-cli", 4970),
         ("lissom-fmi", 660),

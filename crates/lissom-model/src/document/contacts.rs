@@ -13,6 +13,7 @@ use super::beam_contacts::{self, BeamContactEntry, NOT_OF_BEAMS, OF_BEAMS};
 use super::entries::each;
 use super::ports::two_nodes;
 use super::rigid_contacts::{self, OF_DEFORMATION};
+use super::shell_contacts::{self, NOT_OF_SHELLS, OF_SHELLS, ShellContactEntry};
 use super::solids::shape;
 use super::{Body, NodeReference, PointMass};
 use crate::format::keys::{Key, Shape, optional, required};
@@ -61,6 +62,8 @@ pub enum ContactLaw {
     Rigid(RigidLaw),
     /// With a beam.
     OfBeam(BeamContactEntry),
+    /// With a shell.
+    OfShell(ShellContactEntry),
     /// By a force over the penetration.
     Compliant(CompliantEntry),
 }
@@ -107,7 +110,7 @@ pub(super) fn keys() -> Vec<Key> {
             "a body or point mass with a `shape`, or \"ground\"; a beam, if the tip is one",
         ),
         optional("others", Shape::Nodes, "", "further parts: every two of `base`, `tip` and these may touch"),
-        required("tip", Shape::Node, "", "the other part that may touch it; or the name of a beam"),
+        required("tip", Shape::Node, "", "the other part that may touch it; or the name of a beam or a shell"),
         optional(
             "rigid",
             Shape::Flag,
@@ -179,6 +182,7 @@ pub(super) fn keys() -> Vec<Key> {
         ).or_number(0.0),
     ];
     keys.extend(beam_contacts::keys());
+    keys.extend(shell_contacts::keys());
     keys
 }
 
@@ -236,6 +240,10 @@ pub(super) fn contacts(
             let (between, law) = beam_contacts::entry(reader, sides, &|part| is_solid(part, &reader.what))?;
             return entry(between, Vec::new(), ContactLaw::OfBeam(law));
         }
+        if let Kind::OfShell(shell) = kind {
+            let (between, law) = shell_contacts::entry(reader, shell, &|part| is_solid(part, &reader.what))?;
+            return entry(between, Vec::new(), ContactLaw::OfShell(law));
+        }
         let between = two_nodes(reader)?;
         let others = others(reader, &between)?;
         for part in between.iter().chain(&others) {
@@ -262,6 +270,8 @@ pub(super) fn contacts(
 enum Kind {
     /// That of the base, if it is one, and that of the tip.
     OfBeam((Option<Located<String>>, Located<String>)),
+    /// That of the tip.
+    OfShell(Located<String>),
     Rigid,
     Compliant,
 }
@@ -270,6 +280,31 @@ enum Kind {
 fn kind(reader: &Reader<'_, '_>) -> Option<Kind> {
     let (context, what) = (reader.context, &reader.what);
     let given = |keys: &[&'static str]| keys.iter().find_map(|key| Some((*key, reader.node(key)?.span)));
+    if let Some(tip) = shell_contacts::shell_of(reader, "tip") {
+        if let Some((key, span)) = given(&OF_BEAMS) {
+            let message = format!("`{key}` of {what} is for beams");
+            return context.fail(
+                span,
+                message,
+                "remove it: a shell touches with its thickness, at its nodes",
+            );
+        }
+        for (key, help) in NOT_OF_SHELLS {
+            if let Some((_, span)) = given(&[key]) {
+                let message = format!("`{key}` of {what} is not available for shells");
+                return context.fail(span, message, help);
+            }
+        }
+        return Some(Kind::OfShell(tip));
+    }
+    if let Some(base) = shell_contacts::shell_of(reader, "base") {
+        let message = format!("{what} has a shell as `base`");
+        return context.fail(base.span, message, "exchange `base` and `tip`: the shell is the tip");
+    }
+    if let Some((key, span)) = given(&[OF_SHELLS]) {
+        let message = format!("`{key}` of {what} is for shells");
+        return context.fail(span, message, "name a shell as `tip`, or give `stiffness`");
+    }
     match (beam_contacts::beam_of(reader, "base"), beam_contacts::beam_of(reader, "tip")) {
         (base, Some(tip)) => {
             if let Some((_, span)) = given(&["others"]) {

@@ -24,6 +24,7 @@ mod places;
 mod plausibility;
 mod ports;
 mod rigid_contacts;
+mod shell_contacts;
 mod shells;
 mod signals;
 mod solids;
@@ -61,6 +62,7 @@ pub use contacts::{CompliantEntry, ContactEntry, ContactLaw, Ground, Restitution
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
+pub use shell_contacts::{ShellContactEntry, TouchingShell};
 pub(crate) use shells::area_arguments;
 pub use shells::{AreaLoad, Layer, Shell};
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};

@@ -75,6 +75,8 @@ pub(super) fn add(
                 .map(|points| drop(names.contacts.rigid.insert(name, points))),
             ContactLaw::OfBeam(law) => super::beam_contacts::add(document, (entry, law), names, builder)
                 .map(|points| drop(names.contacts.compliant.insert(name, points))),
+            ContactLaw::OfShell(law) => super::shell_contacts::add(document, (entry, law), names, builder)
+                .map(|points| drop(names.contacts.compliant.insert(name, points))),
             ContactLaw::Compliant(law) if document.analysis.gathers_contacts() => {
                 contact_set::add(document, (entry, law), names, builder)
             }

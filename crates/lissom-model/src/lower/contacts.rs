@@ -60,6 +60,7 @@ impl Names {
         let with_friction = document.contacts.iter().filter(|entry| match &entry.law {
             ContactLaw::Rigid(_) => false,
             ContactLaw::OfBeam(law) => law.friction.is_some(),
+            ContactLaw::OfShell(law) => law.friction.is_some(),
             ContactLaw::Compliant(law) => law.friction.is_some(),
         });
         let mut names = with_friction.map(|entry| &entry.name.value).peekable();

@@ -22,6 +22,7 @@ mod readings;
 pub mod registry;
 mod resource_limits;
 mod rigid_contacts;
+mod shell_contacts;
 mod shells;
 mod signal_references;
 mod signals;

@@ -7,6 +7,7 @@ use lissom_mechanics::elements::Element;
 use lissom_mechanics::elements::beam_contact::BeamContact;
 use lissom_mechanics::elements::contact::{Contact, ContactForces};
 use lissom_mechanics::elements::nearest_contact::NearestContact;
+use lissom_mechanics::elements::shell::contact::ShellContact;
 use lissom_mechanics::joints::rigid_contact::RigidContact;
 use lissom_mechanics::kinematics::{DiscreteValueId, Kinematics};
 
@@ -49,6 +50,16 @@ impl ContactElement for BeamContact {
 }
 
 impl ContactElement for NearestContact {
+    fn forces_at(&self, at: &Kinematics) -> ContactForces {
+        Self::forces_at(self, at)
+    }
+
+    fn motion(&self, at: &Kinematics) -> [f64; 3] {
+        Self::motion(self, at)
+    }
+}
+
+impl ContactElement for ShellContact {
     fn forces_at(&self, at: &Kinematics) -> ContactForces {
         Self::forces_at(self, at)
     }

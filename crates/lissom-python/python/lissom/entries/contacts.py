@@ -16,7 +16,7 @@ class Contact(Entry):
     Args:
         base: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one; a node.
         others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
-        tip: the other part that may touch it; or the name of a beam; a node.
+        tip: the other part that may touch it; or the name of a beam or a shell; a node.
         rigid: instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
@@ -36,6 +36,7 @@ class Contact(Entry):
         base_radius: the same of a beam as base [m]; a number > 0, or nothing.
         stiffness_per_length: of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
         points: with `stiffness_per_length`: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
+        stiffness_per_area: of a shell as tip, instead of `stiffness`: it touches at its nodes, with this normal force per area at a penetration of 1 m [N/m^(n+2)]; a number > 0, or nothing.
     """
 
     _table: ClassVar[str] = "contacts"
@@ -62,6 +63,7 @@ class Contact(Entry):
     base_radius: Number | None = None
     stiffness_per_length: Number | None = None
     points: Count | None = None
+    stiffness_per_area: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

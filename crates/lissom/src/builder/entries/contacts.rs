@@ -13,7 +13,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `base`: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one
-    /// - `tip`: the other part that may touch it; or the name of a beam
+    /// - `tip`: the other part that may touch it; or the name of a beam or a shell
     new(base: Node = "base", tip: Node = "tip")
     /// Further parts: every two of `base`, `tip` and these may touch.
     others: Vec<Node> = "others";
@@ -55,6 +55,8 @@ entry! {
     stiffness_per_length: f64 = "stiffness_per_length";
     /// With `stiffness_per_length`: number of intervals between points of contact in an element; default 2.
     points: usize = "points";
+    /// Of a shell as tip, instead of `stiffness`: it touches at its nodes, with this normal force per area at a penetration of 1 m \[N/m^(n+2)\].
+    stiffness_per_area: f64 = "stiffness_per_area";
 }
 
 entry! {
