@@ -2,7 +2,7 @@
 
 use lissom::Record;
 
-use crate::support::runs::{last, run};
+use crate::support::runs::{column, last, run};
 
 fn example(name: &str) -> Record {
     let path = format!("{}/../../examples/shells/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -44,4 +44,17 @@ fn a_satellite_moves_by_the_motion_of_its_panels() {
     is_near(last(&record, "hub", "u3"), 0.043_863, 2e-3);
     let momentum = last(&record, "momentum", "p3");
     assert!(momentum.abs() < 1e-3, "{momentum:e}");
+}
+
+/// It bends the sheet as a slow force does, and rolls out of the hollow as fast as it rolled into it.
+#[test]
+fn a_ball_that_rolls_over_a_sheet_bends_it() {
+    let record = example("ball-on-sheet");
+    let lowest = column(&record, "middle", "u3").iter().copied().fold(0.0, f64::min);
+    is_near(lowest, 7.03e-4, 0.03);
+    is_near(last(&record, "speed", "v1"), 0.5, 1e-3);
+    let normal = column(&record, "touch", "normal");
+    let mean = normal.iter().sum::<f64>() / normal.len() as f64;
+    is_near(mean, 20.64, 0.01);
+    assert!(column(&record, "touch", "points")[100..].iter().all(|points| *points == 1.0));
 }
