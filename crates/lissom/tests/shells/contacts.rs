@@ -5,14 +5,14 @@ use lissom::Record;
 use crate::support::refused::refused;
 use crate::support::runs::{column, last, run, run_without_warnings};
 
-const STEEL: &str = r#"
+const STEEL: &str = r"
 lissom = 1
 gravity = [0, 0, -9.81]
 [materials.steel]
 E = 200e9
 nu = 0.3
 density = 7800
-"#;
+";
 
 const GRAVITY: f64 = 9.81;
 
