@@ -216,10 +216,10 @@ impl ShellContact {
 
     /// Y relative to the centre, and s.
     fn sliding<T: Number>(&self, moved: &Moved<T>, touch: &Touch<T>) -> [Three<T>; 2] {
-        let h = T::constant(touch.side * self.half_thickness);
-        let arm = difference(plus(touch.spot.place, touch.spot.normal, h), moved.centre);
+        let face = T::constant(touch.side * self.half_thickness);
+        let arm = difference(plus(touch.spot.place, touch.spot.normal, face), moved.centre);
         let of_ball = sum(moved.velocity, cross(moved.spin, arm));
-        let of_shell = touch.spot.moved(&moved.patch, &moved.rates, h);
+        let of_shell = touch.spot.moved(&moved.patch, &moved.rates, face);
         [arm, across(difference(of_shell, of_ball), touch.outwards)]
     }
 
@@ -259,8 +259,8 @@ impl ShellContact {
             let share = Self::friction_share(friction, &moved, (sliding, &touch));
             // On the left-hand side.
             let on_shell = times(share, -normal);
-            let h = T::constant(touch.side * self.half_thickness);
-            let spread = touch.spot.spread(&moved.patch, on_shell, h);
+            let face = T::constant(touch.side * self.half_thickness);
+            let spread = touch.spot.spread(&moved.patch, on_shell, face);
             for a in 0..NODES {
                 nodes.positions[a] = sum(nodes.positions[a], spread.positions[a]);
                 nodes.directors[a] = sum(nodes.directors[a], spread.directors[a]);

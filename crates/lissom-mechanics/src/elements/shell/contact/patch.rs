@@ -109,14 +109,14 @@ impl<T: Number> Patch<T> {
 }
 
 impl<T: Number> Spot<T> {
-    /// δX, or δ(X + h n), for displacements of the nodes and changes of the directors.
-    pub(super) fn moved(&self, patch: &Patch<T>, by: &Patch<T>, h: T) -> Three<T> {
+    /// δX, or δ(X + offset n), for displacements of the nodes and changes of the directors.
+    pub(super) fn moved(&self, patch: &Patch<T>, by: &Patch<T>, offset: T) -> Three<T> {
         let [mut mean, mut turned] = [none(); 2];
         for a in 0..NODES {
             mean = plus(mean, by.positions[a], self.shapes[a]);
             turned = plus(turned, by.directors[a], self.shapes[a]);
         }
-        let mut all = plus(mean, across(turned, self.normal), h / self.length);
+        let mut all = plus(mean, across(turned, self.normal), offset / self.length);
         for a in 0..NODES {
             let director = patch.directors[a];
             let height =
@@ -127,14 +127,14 @@ impl<T: Number> Spot<T> {
         all
     }
 
-    /// A force at X, or at X + h n, in terms of forces on the nodes and of vectors F_a with the work F_a·δd_a.
-    pub(super) fn spread(&self, patch: &Patch<T>, force: Three<T>, h: T) -> Patch<T> {
+    /// A force at X, or at X + offset n, in terms of forces on the nodes and of vectors F_a with the work F_a·δd_a.
+    pub(super) fn spread(&self, patch: &Patch<T>, force: Three<T>, offset: T) -> Patch<T> {
         let along = patch.directors.map(|director| dot(director, force));
         let mut shared = force;
         for a in 0..NODES {
             shared = plus(shared, patch.directors[a], (self.shapes[a] * along[a]).scaled(-0.5));
         }
-        let turning = times(across(force, self.normal), h / self.length);
+        let turning = times(across(force, self.normal), offset / self.length);
         let half = self.shapes.map(|shape| shape.scaled(0.5));
         Patch {
             positions: std::array::from_fn(|a| {
