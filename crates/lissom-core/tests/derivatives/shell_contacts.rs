@@ -66,7 +66,13 @@ fn model(
             normals: None,
             fold_angle: 0.5,
             direction: None,
-            section: &|_| ShellSection { law: ShellLaw::laminate(&[ply]), mass: 1e-3, inertia: 1e-3 },
+            damping: 0.0,
+            section: &|_| ShellSection {
+                law: ShellLaw::laminate(&[ply], 0.0),
+                mass: 1e-3,
+                center: 0.0,
+                inertia: 1e-3,
+            },
         },
     );
     builder.add(contribution);

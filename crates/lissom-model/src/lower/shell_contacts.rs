@@ -11,7 +11,7 @@ use lissom_mechanics::elements::contact::{Contact, Dissipation};
 use lissom_mechanics::elements::shell::contact::{ShellContact, contact_patches};
 use lissom_mechanics::kinematics::{CarriedFrame, NodeId};
 use lissom_mechanics::number::written;
-use lissom_motion::Vector3;
+use lissom_motion::{Motion, Vector3};
 use lissom_system::Builder;
 
 use super::contacts::solids;
@@ -89,8 +89,10 @@ impl OfShell<'_> {
                 let friction = friction.map(|law| law.with_bristles(&name, &mut contribution));
                 let pair =
                     Arc::new(PointOnSurface { rounding: 0.5 * thickness[index], surface: surface.clone() });
-                let frames =
-                    [CarriedFrame { node: self.base, offset: solid.frame }, CarriedFrame::of_node(node)];
+                // In the middle of the thickness; the third axis of a node is the normal.
+                let middle = Motion::translation(self.shell.offset * Vector3::z());
+                let frames = [(self.base, solid.frame), (node, middle)]
+                    .map(|(node, offset)| CarriedFrame { node, offset });
                 let law = (compliance, Dissipation::Factor(self.law.dissipation));
                 let contact = Contact::new(frames, pair, law, friction).with_name(&self.entry.name.value);
                 builder.add(contribution.with(contact.clone()));
@@ -102,6 +104,13 @@ impl OfShell<'_> {
 
     /// Balls, each with all elements.
     fn nearest(&self, stiffness: f64, builder: &mut Builder) -> Result<Vec<ContactPoint>, Problem> {
+        if self.shell.offset != 0.0 {
+            let message = format!("shell `{}` has an `offset`", self.law.shell.value);
+            return Err(self.fault(
+                &message,
+                "give `stiffness_per_area` instead of `stiffness`, or describe the middle of the thickness without `offset`",
+            ));
+        }
         let thickness: Vec<f64> =
             (0..self.shell.mesh.elements.len()).map(|element| self.shell.thickness(element)).collect();
         if thickness.iter().any(|own| (own - thickness[0]).abs() > 1e-9 * thickness[0]) {

@@ -13,8 +13,8 @@
 mod blocks;
 mod condensed;
 mod constants;
-pub mod damping;
 pub mod contact;
+pub mod damping;
 mod forces;
 mod interpolation;
 mod linearize;
