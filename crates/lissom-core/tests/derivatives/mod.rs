@@ -18,6 +18,7 @@ mod rigid_contacts;
 mod rolling;
 mod shell_contacts;
 mod shells;
+mod solids;
 mod superelement;
 
 use configuration::{Configuration, Random, difference, sample_parameters};

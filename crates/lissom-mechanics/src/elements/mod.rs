@@ -39,6 +39,7 @@ pub mod rolling_contact;
 pub mod rope;
 pub mod shape;
 pub mod shell;
+pub mod solid;
 pub mod stop;
 pub mod superelement;
 

@@ -1,0 +1,249 @@
+//! Solids: their tangents are the derivatives of their forces, these are the gradient of their energy, and nothing but rigid motions is free of
+//! energy.
+
+use std::sync::Arc;
+
+use lissom_core::elements::solid::law::{SolidLaw, SolidModel};
+use lissom_core::elements::solid::pressure::{FacePressure, area_shares};
+use lissom_core::elements::solid::shape::{hexahedron_node, tetrahedron_node};
+use lissom_core::elements::solid::volume::{hexahedron_shares, tetrahedron_shares};
+use lissom_core::elements::solid::{Hexahedron, Tetrahedron};
+use lissom_core::elements::{Deformable, Element, Tangents};
+use lissom_core::kinematics::{Freedoms, Kinematics, NodeId, Stressed};
+use lissom_core::system::{Builder, State, System};
+use lissom_motion::{Motion, Rotation, Vector3};
+use nalgebra::DMatrix;
+
+use super::check;
+use super::configuration::{Configuration, Random, Wave, difference};
+
+const LAWS: [(SolidModel, f64); 3] =
+    [(SolidModel::StVenantKirchhoff, 0.3), (SolidModel::NeoHookean, 0.35), (SolidModel::NeoHookean, 0.45)];
+
+/// Distorted positions with curved edges.
+fn positions<const NODES: usize>(node: fn(usize) -> [f64; 3], random: &mut Random) -> [Vector3; NODES] {
+    std::array::from_fn(|i| Vector3::from(node(i)) + 0.05 * random.vector())
+}
+
+fn nodes<const NODES: usize>(builder: &mut Builder, positions: &[Vector3; NODES]) -> [NodeId; NODES] {
+    std::array::from_fn(|i| {
+        builder.add_node(&format!("node {i}"), Motion::translation(positions[i]), Freedoms::Translations)
+    })
+}
+
+fn tetrahedron(random: &mut Random, (model, poisson): (SolidModel, f64)) -> (System, State, Tetrahedron) {
+    let mut builder = Builder::new();
+    let positions = positions(tetrahedron_node, random);
+    let law = SolidLaw::new(model, 3.0, poisson);
+    let solid = Tetrahedron::new(nodes(&mut builder, &positions), &positions, law).expect("valid");
+    builder.add_element(solid.clone());
+    let (system, state) = builder.build(0.0).expect("valid");
+    (system, state, solid)
+}
+
+fn hexahedron(random: &mut Random, (model, poisson): (SolidModel, f64)) -> (System, State, Hexahedron) {
+    let mut builder = Builder::new();
+    let positions = positions(hexahedron_node, random);
+    let law = SolidLaw::new(model, 3.0, poisson);
+    let solid = Hexahedron::new(nodes(&mut builder, &positions), &positions, law).expect("valid");
+    builder.add_element(solid.clone());
+    let (system, state) = builder.build(0.0).expect("valid");
+    (system, state, solid)
+}
+
+/// Calls a function with both shapes and all laws.
+macro_rules! for_all {
+    ($random:ident, $check:ident) => {
+        for law in LAWS {
+            let (system, state, solid) = tetrahedron(&mut $random, law);
+            $check(&system, &state, &solid, &mut $random);
+            let (system, state, solid) = hexahedron(&mut $random, law);
+            $check(&system, &state, &solid, &mut $random);
+        }
+    };
+}
+
+fn deformed(system: &System, state: &State, random: &mut Random) -> Kinematics {
+    let mut at = Configuration::random(system, state, 0.04, random).at;
+    for node in &mut at.nodes {
+        node.twist.fill(0.0);
+        node.acceleration.fill(0.0);
+    }
+    at
+}
+
+fn forces(solid: &impl Element, at: &Kinematics) -> Vec<f64> {
+    let mut forces = vec![0.0; solid.unknowns().force_count()];
+    solid.forces(at, &mut forces);
+    forces
+}
+
+#[test]
+fn tangents_are_the_derivatives_of_forces() {
+    fn derivatives(system: &System, state: &State, _: &impl Element, random: &mut Random) {
+        check("solid", system, state, 0.04, random);
+    }
+    let mut random = Random::new(5);
+    for_all!(random, derivatives);
+}
+
+#[test]
+fn tangents_of_pressure_are_the_derivatives_of_its_forces() {
+    let mut random = Random::new(9);
+    let mut builder = Builder::new();
+    let places: [Vector3; 14] = std::array::from_fn(|_| random.vector());
+    let all = nodes(&mut builder, &places);
+    builder.add_element(FacePressure::on_triangle(std::array::from_fn(|i| all[i]), Arc::new(Wave)));
+    builder.add_element(FacePressure::on_quadrilateral(std::array::from_fn(|i| all[6 + i]), Arc::new(Wave)));
+    let (system, state) = builder.build(0.0).expect("valid");
+    check("pressure", &system, &state, 0.4, &mut random);
+}
+
+#[test]
+fn forces_are_the_gradient_of_the_energy() {
+    fn gradient(system: &System, state: &State, solid: &impl Element, random: &mut Random) {
+        assert!(solid.energy(&state.kinematics).strain.abs() < 1e-28);
+        let mut here = Configuration::random(system, state, 0.04, random);
+        here.at.nodes.iter_mut().for_each(|node| node.twist.fill(0.0));
+        let forces = forces(solid, &here.at);
+        let largest = forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+        assert!(largest > 0.01);
+        for column in 0..system.layout().size() {
+            let slope =
+                difference(|step| vec![solid.energy(&here.displaced(system, column, step, false).at).strain])[0];
+            let force = forces[6 * (column / 3) + column % 3];
+            assert!((force - slope).abs() < 1e-8 * largest, "{column}: {force}, {slope}");
+        }
+    }
+    let mut random = Random::new(6);
+    for_all!(random, gradient);
+}
+
+#[test]
+fn only_rigid_motions_are_without_energy() {
+    fn modes(_: &System, state: &State, solid: &impl Element, _: &mut Random) {
+        let size = solid.unknowns().force_count();
+        let mut tangents = Tangents::new(size);
+        solid.linearize(&state.kinematics, &mut tangents);
+        let full = DMatrix::from_row_slice(size, size, &tangents.stiffness);
+        let moving: Vec<usize> = (0..size).filter(|k| k % 6 < 3).collect();
+        let stiffness = full.select_rows(&moving).select_columns(&moving);
+        assert!((&stiffness - stiffness.transpose()).amax() < 1e-14 * stiffness.amax());
+        let mut values: Vec<f64> = stiffness.symmetric_eigenvalues().iter().copied().collect();
+        values.sort_by(f64::total_cmp);
+        let largest = values[values.len() - 1];
+        assert!(values[..6].iter().all(|value| value.abs() < 1e-14 * largest), "{values:?}");
+        assert!(values[6] > 1e-4 * largest, "{values:?}");
+    }
+    let mut random = Random::new(7);
+    for_all!(random, modes);
+}
+
+#[test]
+fn a_rigid_motion_changes_nothing() {
+    fn rigid(system: &System, state: &State, solid: &impl Element, random: &mut Random) {
+        let here = deformed(system, state, random);
+        let (turn, shift) = (Rotation::exponential(&(2.0 * random.vector())), random.vector());
+        let mut there = here.clone();
+        for node in &mut there.nodes {
+            node.frame.position = shift + turn.apply(&node.frame.position);
+        }
+        let (one, other) = (forces(solid, &here), forces(solid, &there));
+        let largest = one.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+        for (one, other) in one.chunks_exact(6).zip(other.chunks_exact(6)) {
+            let turned = turn.apply(&Vector3::new(one[0], one[1], one[2]));
+            assert!((0..3).all(|k| (turned[k] - other[k]).abs() < 1e-13 * largest), "{one:?}\n{other:?}");
+        }
+        let energies = [&here, &there].map(|at| solid.energy(at).strain);
+        assert!((energies[0] - energies[1]).abs() < 1e-13 * energies[0], "{energies:?}");
+    }
+    let mut random = Random::new(8);
+    for_all!(random, rigid);
+}
+
+#[test]
+fn stresses_are_predicted_to_first_order() {
+    let mut random = Random::new(10);
+    let (system, state, solid) = hexahedron(&mut random, LAWS[0]);
+    let here = deformed(&system, &state, &mut random);
+    let way: Vec<Vector3> = here.nodes.iter().map(|_| random.vector()).collect();
+    // The tangent with stresses predicted over a distance differs from the exact one quadratically.
+    let error = |distance: f64| {
+        let mut there = here.clone();
+        there.nodes.iter_mut().zip(&way).for_each(|(node, way)| node.frame.position += distance * way);
+        let tangent = |previous: Option<&Kinematics>| {
+            let mut tangents = Tangents::new(120);
+            solid.linearize_stressed(&there, Stressed { at: &there, previous }, &mut tangents);
+            DMatrix::from_row_slice(120, 120, &tangents.stiffness)
+        };
+        (tangent(Some(&here)) - tangent(None)).amax()
+    };
+    let errors = [1e-2, 1e-3].map(error);
+    assert!(errors[0] > 1e-6 && (90.0..110.0).contains(&(errors[0] / errors[1])), "{errors:?}");
+}
+
+#[test]
+fn forces_of_an_element_that_is_turned_inside_out_are_no_numbers() {
+    fn inside_out(_: &System, state: &State, solid: &impl Element, _: &mut Random) {
+        let mut at = state.kinematics.clone();
+        at.nodes.iter_mut().for_each(|node| node.frame.position.z *= -1.0);
+        assert!(forces(solid, &at)[0].is_nan());
+    }
+    let mut random = Random::new(11);
+    for_all!(random, inside_out);
+}
+
+#[test]
+fn shares_of_nodes_are_positive_masses_and_areas_of_a_uniform_load() {
+    let mut random = Random::new(12);
+    let masses = tetrahedron_shares(&positions(tetrahedron_node, &mut random)).expect("valid");
+    assert!(masses.iter().all(|mass| *mass > 0.0));
+    let masses = hexahedron_shares(&std::array::from_fn(|i| hexahedron_node(i).into())).expect("valid");
+    assert!((masses.iter().sum::<f64>() - 8.0).abs() < 1e-13 && masses.iter().all(|mass| *mass > 0.0));
+    let mirrored = std::array::from_fn(|i| -Vector3::from(hexahedron_node(i)));
+    assert!(hexahedron_shares(&mirrored).is_err());
+    // Corners have a negative share in a square, and none in a triangle.
+    let square: Vec<Vector3> = [4, 5, 6, 7, 12, 13, 14, 15].map(|i| hexahedron_node(i).into()).to_vec();
+    let shares = area_shares(&square);
+    for (i, share) in shares.iter().enumerate() {
+        assert!((share - if i < 4 { -1.0 / 3.0 } else { 4.0 / 3.0 }).abs() < 1e-14, "{shares:?}");
+    }
+    let triangle: Vec<Vector3> = [0, 1, 2, 4, 5, 6].map(|i| tetrahedron_node(i).into()).to_vec();
+    let shares = area_shares(&triangle);
+    for (i, share) in shares.iter().enumerate() {
+        assert!((share - if i < 3 { 0.0 } else { 1.0 / 6.0 }).abs() < 1e-14, "{shares:?}");
+    }
+}
+
+#[test]
+fn stresses_at_nodes_are_those_of_a_uniform_strain() {
+    fn uniform(at: &Kinematics, stresses: &[lissom_motion::Matrix3]) {
+        let exact = stresses[0];
+        assert!(at.nodes.len() > 10 && exact.amax() > 0.01);
+        assert!(stresses.iter().all(|own| (own - exact).amax() < 1e-13), "{stresses:?}");
+    }
+    let mut random = Random::new(13);
+    for law in LAWS {
+        let stretch = nalgebra::Matrix3::identity() + 0.05 * nalgebra::Matrix3::from_fn(|_, _| random.number());
+        let strained = |state: &State| {
+            let mut at = state.kinematics.clone();
+            at.nodes.iter_mut().for_each(|node| node.frame.position = stretch * node.frame.position);
+            at
+        };
+        let (_, state, solid) = tetrahedron(&mut random, law);
+        uniform(&strained(&state), &solid.nodal_stresses(&solid.positions(&strained(&state))));
+        let (_, state, solid) = hexahedron(&mut random, law);
+        let at = strained(&state);
+        uniform(&at, &solid.nodal_stresses(&solid.positions(&at)));
+        // Work of the forces by virial: Σ f xᵀ = V σ.
+        let forces = forces(&solid, &at);
+        let virial: nalgebra::Matrix3<f64> = (0..20)
+            .map(|i| {
+                let force = Vector3::new(forces[6 * i], forces[6 * i + 1], forces[6 * i + 2]);
+                force * at.nodes[solid.nodes()[i]].frame.position.transpose()
+            })
+            .sum();
+        let stress = solid.nodal_stresses(&solid.positions(&at))[0] * stretch.determinant() * solid.volume();
+        assert!((virial - stress).amax() < 1e-12, "{virial}{stress}");
+    }
+}

@@ -1,0 +1,136 @@
+//! Elastic laws of solids.
+//!
+//! Legend: F deformation gradient, J its determinant, E Green-Lagrange strain, I₁ = F:F, μ shear modulus, λ Lamé's first constant,
+//! K bulk modulus, K₀ its part at points, V volume of an element, V₀ that at rest.
+//!
+//! ```text
+//! St. Venant-Kirchhoff   W = λ/2 (tr E)² + μ E:E
+//! neo-Hookean            W = μ/2 (I₁ J^(-2/3) - 3) + K₀/2 (J - 1)²,      and of an element  V₀ (K - K₀)/2 (V/V₀ - 1)²
+//! ```
+//!
+//! K₀ = min(K, 14/3 μ), which is the bulk modulus at ν = 0.4. The rest acts on the mean dilatation, one equation per element, so that
+//! elements do not lock up to ν → 1/2. Without K₀, bending of one layer of elements would be nearly free of energy: its dilatation is
+//! linear, with the mean 0.
+
+use lissom_motion::{Matrix3, Vector3};
+
+use super::deformation::Deformation;
+
+/// Which law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolidModel {
+    /// Stress is proportional to the Green-Lagrange strain: for small strains.
+    StVenantKirchhoff,
+    /// Rubber: also large strains, and almost incompressible.
+    NeoHookean,
+}
+
+/// An elastic law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidLaw {
+    /// Which one.
+    pub model: SolidModel,
+    /// Shear modulus [Pa].
+    pub shear: f64,
+    /// Bulk modulus [Pa].
+    pub bulk: f64,
+}
+
+impl SolidLaw {
+    /// The law with Young's modulus [Pa] and Poisson's ratio at small strains.
+    pub fn new(model: SolidModel, young: f64, poisson: f64) -> Self {
+        Self { model, shear: 0.5 * young / (1.0 + poisson), bulk: young / (3.0 - 6.0 * poisson) }
+    }
+
+    /// Bulk modulus of the dilatation at a point [Pa].
+    fn bulk_at_point(&self) -> f64 {
+        match self.model {
+            SolidModel::StVenantKirchhoff => self.bulk,
+            SolidModel::NeoHookean => self.bulk.min(14.0 / 3.0 * self.shear),
+        }
+    }
+
+    /// Bulk modulus of the mean dilatation of an element [Pa].
+    pub(super) fn bulk_of_mean(&self) -> f64 {
+        self.bulk - self.bulk_at_point()
+    }
+
+    /// Energy at a point without that of the mean dilatation [J/m³].
+    pub(super) fn energy(&self, at: &Deformation) -> f64 {
+        match self.model {
+            SolidModel::StVenantKirchhoff => {
+                let strain = at.strain();
+                0.5 * strain.dot(&self.second_stress(&strain))
+            }
+            SolidModel::NeoHookean => {
+                // (I₁ J^(-2/3) - 3) of small strains without loss of digits.
+                let exponent = -2.0 / 3.0 * at.dilatation().ln_1p();
+                let first = 2.0 * at.displacement.trace() + at.displacement.norm_squared();
+                let distortion = 3.0 * exponent.exp_m1() + first * exponent.exp();
+                0.5 * (self.shear * distortion + self.bulk_at_point() * at.dilatation().powi(2))
+            }
+        }
+    }
+
+    /// Second Piola-Kirchhoff stress of a Green-Lagrange strain [Pa].
+    pub(super) fn second_stress(&self, strain: &Matrix3) -> Matrix3 {
+        let first = (self.bulk - 2.0 / 3.0 * self.shear) * strain.trace();
+        2.0 * self.shear * strain + Matrix3::from_diagonal_element(first)
+    }
+
+    /// First Piola-Kirchhoff stress with the pressure of the mean dilatation, positive in tension [Pa].
+    pub(super) fn first_stress(&self, at: &Deformation, mean: f64) -> Matrix3 {
+        match self.model {
+            SolidModel::StVenantKirchhoff => at.gradient * self.second_stress(&at.strain()),
+            SolidModel::NeoHookean => {
+                let factor = self.shear * at.determinant.powf(-2.0 / 3.0);
+                let third = at.gradient.norm_squared() / 3.0;
+                let pressure = (self.bulk_at_point() * at.dilatation() + mean) * at.determinant;
+                factor * at.gradient + (pressure - factor * third) * at.inverse_transpose
+            }
+        }
+    }
+
+    /// Change of the first Piola-Kirchhoff stress by a change of the gradient e_k ⊗ `slope`, at a constant pressure of the mean
+    /// dilatation; with the second stress `stressed` in the geometric part of St. Venant-Kirchhoff.
+    pub(super) fn stress_change(
+        &self,
+        at: &Deformation,
+        (stressed, mean): (&Matrix3, f64),
+        (k, slope): (usize, &Vector3),
+    ) -> Matrix3 {
+        match self.model {
+            SolidModel::StVenantKirchhoff => {
+                let row: Vector3 = at.gradient.row(k).transpose();
+                let half = 0.5 * row * slope.transpose();
+                let mut change = at.gradient * self.second_stress(&(half + half.transpose()));
+                let geometric = stressed * slope;
+                for column in 0..3 {
+                    change[(k, column)] += geometric[column];
+                }
+                change
+            }
+            SolidModel::NeoHookean => {
+                let (q, j) = (&at.inverse_transpose, at.determinant);
+                let along = q * slope;
+                let share = along[k];
+                // -δF⁻ᵀ
+                let turned = along * q.row(k);
+                let factor = self.shear * j.powf(-2.0 / 3.0);
+                let third = at.gradient.norm_squared() / 3.0;
+                let bulk = self.bulk_at_point();
+                let pressure = (bulk * at.dilatation() + mean) * j;
+                let stretch = at.gradient.row(k).dot(&slope.transpose());
+                let mut change = (pressure * share + bulk * j * j * share
+                    - 2.0 / 3.0 * factor * (stretch - third * share))
+                    * q
+                    - (2.0 / 3.0 * factor * share) * at.gradient
+                    + (factor * third - pressure) * turned;
+                for column in 0..3 {
+                    change[(k, column)] += factor * slope[column];
+                }
+                change
+            }
+        }
+    }
+}
