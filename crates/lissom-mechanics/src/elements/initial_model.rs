@@ -84,11 +84,12 @@ impl InitialModel {
             return Ok(());
         }
         let problem = if axes {
-            "is a point mass, which has no rotation: make it a body".to_owned()
+            "is a point mass or a node of a solid, which has no rotation: make it a body, or clamp the solid to one"
+                .to_owned()
         } else {
             let distance = Written(distance);
             format!(
-                "is a point mass {distance:.4} m away from the location, and has no rotation: \
+                "is a point mass or a node of a solid {distance:.4} m away from the location, and has no rotation: \
                  make it a body, or move the location to it"
             )
         };

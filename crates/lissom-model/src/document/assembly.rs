@@ -41,7 +41,7 @@ pub(super) fn keys() -> Vec<Key> {
             "fixed",
             Shape::Names,
             "",
-            "bodies, point masses, beams, shells, superelements and entries of [parts] that are not moved",
+            "bodies, point masses, beams, shells, solids, superelements and entries of [parts] that are not moved",
         ),
         optional(
             "tolerance",

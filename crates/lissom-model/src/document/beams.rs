@@ -1,20 +1,19 @@
 //! Beams of a model file: their lines, which may depend on each other, and the sections along them.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::entries::each;
 use super::places::PlaceOrNode;
-use super::{
-    Beam, Body, DistributedForce, NodeReference, PointMass, Shell, Station, Superelement, interface_name,
-};
+use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station, Superelement, interface_name};
 use crate::expression::Expression;
 use crate::format::keys::Shape;
 use crate::line::Line;
 use crate::parts::context::Context;
+use crate::reading::mesh_nodes::NodeSets;
 use crate::reading::reader::Reader;
-use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
@@ -38,14 +37,16 @@ enum Form {
     Curve(Box<[Expression; 3]>),
 }
 
-/// Positions of parts whose nodes beams may share, and shells.
-type Fixed<'f> = (&'f BTreeMap<String, Vector3>, &'f BTreeMap<&'f str, &'f ShellMesh>);
+/// Shells and solids by name.
+type Meshes = BTreeMap<String, Arc<dyn NodeSets>>;
+/// Positions of parts whose nodes beams may share, and shells and solids.
+type Fixed<'f> = (&'f BTreeMap<String, Vector3>, &'f Meshes);
 
 pub(super) fn beams(
     context: &Context<'_>,
     bodies: &[Body],
     point_masses: &[PointMass],
-    (shells, superelements): (&[Shell], &[Superelement]),
+    (meshes, superelements): (&Meshes, &[Superelement]),
 ) -> Vec<Beam> {
     let drafts: Vec<Draft> = each(context, "beams", |reader, name| {
         let form = form(reader, name);
@@ -83,8 +84,7 @@ pub(super) fn beams(
             fixed.extend(element.place_of(&own.name).map(|place| (interface_name(name, &own.name), place)));
         }
     }
-    let shells = shells.iter().map(|shell| (shell.name.value.as_str(), &*shell.mesh)).collect();
-    place(context, drafts, (&fixed, &shells))
+    place(context, drafts, (&fixed, meshes))
 }
 
 fn form(reader: &Reader<'_, '_>, name: &str) -> Option<Form> {
@@ -247,7 +247,7 @@ fn line(
     context: &Context<'_>,
     draft: &Draft,
     lines: &BTreeMap<String, Option<Line>>,
-    (fixed, shells): Fixed<'_>,
+    (fixed, meshes): Fixed<'_>,
 ) -> Option<Line> {
     let what = format!("beam `{}`", draft.name.value);
     let at = |end: &PlaceOrNode| match end {
@@ -258,7 +258,7 @@ fn line(
             NodeReference::Interface { superelement, interface } => {
                 fixed.get(&interface_name(superelement, interface)).copied()
             }
-            NodeReference::Shell { shell, place } => shells.get(shell.as_str())?.position_of(place),
+            NodeReference::Mesh { part, place } => meshes.get(part)?.position_of(place),
             NodeReference::Beam { beam, fraction } => {
                 lines.get(beam)?.as_ref().map(|line| line.position(*fraction))
             }
@@ -354,6 +354,14 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
             let message =
                 format!("beam `{}` cannot share the node of the point mass `{name}`", draft.name.value);
             let help = "a point mass has no rotation: specify the end as a position and add a joint of kind \"spherical\"";
+            return context.fail(shared.span, message, help);
+        }
+        if let NodeReference::Mesh { part, .. } = &shared.value
+            && context.has("solids", part)
+        {
+            let message = format!("beam `{}` cannot share a node of the solid `{part}`", draft.name.value);
+            let help =
+                "nodes of solids have no rotation: specify the end as a position, and clamp both to a body";
             return context.fail(shared.span, message, help);
         }
     }

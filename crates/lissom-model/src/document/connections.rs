@@ -9,22 +9,23 @@ use super::entries::PARTS;
 use super::plausibility;
 use super::{
     AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputKind,
-    OutputSource, PointMass, Shell, Subject, Superelement, interface_name,
+    OutputSource, PointMass, Subject, Superelement, interface_name,
 };
 use crate::line::Line;
 use crate::parts::context::Context;
-use crate::reading::shell_mesh::ShellMesh;
+use crate::reading::mesh_nodes::NodeSets;
 use crate::text::report::{Located, Problem, Span};
 
 /// Where the nodes of the parts are.
 pub(super) struct Places {
     points: BTreeMap<String, Vector3>,
     lines: BTreeMap<String, Line>,
-    shells: BTreeMap<String, Arc<ShellMesh>>,
+    meshes: BTreeMap<String, Arc<dyn NodeSets>>,
 }
 
 pub(super) fn places(
-    (beams, shells, superelements): (&[Beam], &[Shell], &[Superelement]),
+    (beams, superelements): (&[Beam], &[Superelement]),
+    meshes: BTreeMap<String, Arc<dyn NodeSets>>,
     bodies: &[Body],
     point_masses: &[PointMass],
 ) -> Places {
@@ -35,18 +36,14 @@ pub(super) fn places(
         let place = |name: &str| Some((interface_name(&element.name.value, name), element.place_of(name)?));
         element.interfaces.iter().filter_map(move |interface| place(&interface.name))
     });
-    Places {
-        points: bodies.chain(masses).chain(interfaces).collect(),
-        lines,
-        shells: shells.iter().map(|shell| (shell.name.value.clone(), Arc::clone(&shell.mesh))).collect(),
-    }
+    Places { points: bodies.chain(masses).chain(interfaces).collect(), lines, meshes }
 }
 
 impl Places {
     /// Positions of all nodes but those of beams.
     pub(super) fn all(&self) -> impl Iterator<Item = Vector3> + '_ {
-        let shells = self.shells.values().flat_map(|mesh| mesh.positions.iter().copied());
-        self.points.values().copied().chain(shells)
+        let of_meshes = self.meshes.values().flat_map(|mesh| mesh.positions().iter().copied());
+        self.points.values().copied().chain(of_meshes)
     }
 
     /// Position of a node; the origin for the ground.
@@ -57,7 +54,7 @@ impl Places {
             NodeReference::Beam { beam, fraction } => {
                 self.lines.get(beam).map(|line| line.position(*fraction))
             }
-            NodeReference::Shell { shell, place } => self.shells.get(shell)?.position_of(place),
+            NodeReference::Mesh { part, place } => self.meshes.get(part)?.position_of(place),
             NodeReference::Interface { superelement, interface } => {
                 self.points.get(&interface_name(superelement, interface)).copied()
             }
@@ -234,6 +231,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("points", document.points.len()),
         ("beams", document.beams.len()),
         ("shells", document.shells.len()),
+        ("solids", document.elastic_solids.len()),
         ("bodies", document.bodies.len()),
         ("point_masses", document.point_masses.len()),
         ("superelements", document.superelements.len()),
@@ -304,7 +302,7 @@ pub(super) fn part_of(node: &NodeReference) -> &str {
         NodeReference::Ground => GROUND,
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,
         NodeReference::Beam { beam, .. } => beam,
-        NodeReference::Shell { shell, .. } => shell,
+        NodeReference::Mesh { part, .. } => part,
         NodeReference::Interface { superelement, .. } => superelement,
     }
 }
@@ -333,6 +331,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
     }
     let parts: Vec<&Located<String>> = (document.beams.iter().map(|beam| &beam.name))
         .chain(document.shells.iter().map(|shell| &shell.name))
+        .chain(document.elastic_solids.iter().map(|solid| &solid.name))
         .chain(document.bodies.iter().map(|body| &body.name))
         .chain(document.point_masses.iter().map(|mass| &mass.name))
         .chain(document.superelements.iter().map(|element| &element.name))

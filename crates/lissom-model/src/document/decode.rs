@@ -10,8 +10,8 @@ use lissom_motion::Vector3;
 use super::entries::PARTS;
 use super::tables::variants;
 use super::{
-    Document, analysis, assembly, beams, bodies, components, connections, contacts, events, initial,
-    local_loads, materials, outputs, shells, signals, superelements,
+    Document, analysis, assembly, beams, bodies, components, connections, contacts, elastic_solids, events,
+    initial, local_loads, materials, outputs, shells, signals, superelements,
 };
 use crate::expression;
 use crate::files::library::Library;
@@ -20,6 +20,7 @@ use crate::format::top_level::singular;
 use crate::format::top_level::{self, Holds};
 use crate::parts;
 use crate::parts::context::Context;
+use crate::reading::mesh_nodes::NodeSets;
 use crate::registry::Registry;
 use crate::text::report::{Problem, Report, Severity, Span};
 use crate::text::{self, Node, Tree, Value};
@@ -84,9 +85,15 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let bodies = bodies::bodies(context);
     let point_masses = bodies::point_masses(context);
     let shells = shells::shells(context, &materials);
+    let elastic_solids = elastic_solids::elastic_solids(context, &materials);
+    let of_shells =
+        shells.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh) as Arc<dyn NodeSets>));
+    let of_solids =
+        elastic_solids.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh) as Arc<dyn NodeSets>));
+    let meshes = of_shells.chain(of_solids).collect();
     let superelements = superelements::superelements(context);
-    let beams = beams::beams(context, &bodies, &point_masses, (&shells, &superelements));
-    let places = connections::places((&beams, &shells, &superelements), &bodies, &point_masses);
+    let beams = beams::beams(context, &bodies, &point_masses, (&meshes, &superelements));
+    let places = connections::places((&beams, &superelements), meshes, &bodies, &point_masses);
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
@@ -114,6 +121,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         points,
         beams,
         shells,
+        elastic_solids,
         bodies,
         point_masses,
         superelements,
@@ -214,7 +222,7 @@ fn check_words(context: &Context<'_>) {
     if !has_free && PARTS.iter().all(|table| context.entries(table).is_empty()) {
         let problem = Problem::error(
             Span::default(),
-            "the model is empty: it has no beam, shell, body, point mass or superelement",
+            "the model is empty: it has no beam, shell, solid, body, point mass or superelement",
         );
         context.report(problem.help("add for example a table [bodies.top] with mass and inertia"));
     }
@@ -252,10 +260,9 @@ fn check_names(context: &Context<'_>) {
             if let Some((first, other)) = parts.insert(name, (span, singular(table))) {
                 let message = format!("the {} `{name}` has the name of a {other}", singular(table));
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
-                context.report(
-                    problem
-                        .help("beams, shells, bodies, point masses and superelements need different names"),
-                );
+                context.report(problem.help(
+                    "beams, shells, solids, bodies, point masses and superelements need different names",
+                ));
             }
             if context.instances.contains_key(name) {
                 let message = format!("the {} `{name}` has the name of a part", singular(table));

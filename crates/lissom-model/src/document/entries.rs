@@ -9,7 +9,7 @@ use crate::text::Node;
 use crate::text::report::Span;
 
 /// Tables of parts.
-pub(super) const PARTS: [&str; 5] = ["beams", "shells", "bodies", "point_masses", "superelements"];
+pub(super) const PARTS: [&str; 6] = ["beams", "shells", "solids", "bodies", "point_masses", "superelements"];
 
 /// Reads every entry of a table that has a single form.
 pub(super) fn each<'c, 'a, T>(

@@ -14,7 +14,7 @@ use crate::text::report::{Problem, Span};
 use crate::text::{Node, Value, in_order};
 
 /// Tables whose entries move.
-const MOVING: [&str; 5] = ["bodies", "point_masses", "beams", "shells", "superelements"];
+const MOVING: [&str; 6] = ["bodies", "point_masses", "beams", "shells", "solids", "superelements"];
 
 /// The motion of all parts, and the motions of those that have another, by their names.
 pub(super) fn initial(context: &Context<'_>) -> (Option<InitialMotion>, BTreeMap<String, InitialMotion>) {
@@ -110,7 +110,8 @@ pub(super) fn parts(reader: &Reader<'_, '_>, key: &str) -> Vec<(String, Span)> {
                 Problem::error(entry.span, format!("{what} names `{name}`, which is not a moving part"));
             let known = known.chain(context.instances.keys().map(String::as_str));
             let help = suggest::help(name, known);
-            let first = "name bodies, point masses, beams, shells, superelements or entries of [parts]";
+            let first =
+                "name bodies, point masses, beams, shells, solids, superelements or entries of [parts]";
             context.report(problem.label("no such part").help(first).maybe_help(help));
         }
         found.extend(meant.into_iter().map(|known| (known.to_owned(), entry.span)));

@@ -12,6 +12,7 @@ mod connections;
 mod contacts;
 pub(crate) mod decode;
 mod distributed;
+mod elastic_solids;
 mod entries;
 mod events;
 mod initial;
@@ -54,12 +55,14 @@ pub use crate::format::top_level::VERSION;
 pub use crate::outputs::entry::{Output, OutputSource, ReactionAxes};
 pub use crate::outputs::kinds::OutputKind;
 pub(crate) use crate::outputs::kinds::{Feature, Subject};
-pub use crate::reading::node_reference::{NodeReference, ShellPlace, interface_name};
+use crate::reading::mesh_nodes::NodeSets;
+pub use crate::reading::node_reference::{MeshPlace, NodeReference, interface_name};
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use beam_contacts::{BeamContactEntry, Touching};
 pub use contacts::{CompliantEntry, ContactEntry, ContactLaw, Ground, Restitution};
 pub use distributed::DistributedForce;
+pub use elastic_solids::{ElasticSolid, FacePressure};
 pub use events::EventEntry;
 pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
 pub use shell_contacts::{ShellContactEntry, TouchingShell};
@@ -107,6 +110,8 @@ pub struct Document {
     pub beams: Vec<Beam>,
     /// Shells.
     pub shells: Vec<Shell>,
+    /// Elastic solids.
+    pub elastic_solids: Vec<ElasticSolid>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
     /// Point masses.
@@ -200,6 +205,13 @@ impl Document {
         self.beams.iter().find(|beam| beam.name.value == name)
     }
 
+    /// The nodes of the shell or solid called `name`.
+    pub fn mesh(&self, name: &str) -> Option<&dyn NodeSets> {
+        let solid = || self.elastic_solids.iter().find(|solid| solid.name.value == name);
+        let of_solid = || solid().map(|solid| &*solid.mesh as &dyn NodeSets);
+        self.shell(name).map(|shell| &*shell.mesh as &dyn NodeSets).or_else(of_solid)
+    }
+
     /// The shell called `name`.
     pub fn shell(&self, name: &str) -> Option<&Shell> {
         self.shells.iter().find(|shell| shell.name.value == name)
@@ -218,7 +230,7 @@ impl Document {
             NodeReference::Beam { beam, fraction } => {
                 self.beam(beam).map(|beam| beam.line.position(*fraction))
             }
-            NodeReference::Shell { shell, place } => self.shell(shell)?.mesh.position_of(place),
+            NodeReference::Mesh { part, place } => self.mesh(part)?.position_of(place),
             NodeReference::Interface { superelement, interface } => {
                 let found = self.superelements.iter().find(|own| own.name.value == *superelement)?;
                 found.place_of(interface)

@@ -14,7 +14,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
     each_of_kind(context, "outputs", registry, |reader, name, word| {
         let kind = OutputKind::all().find(|kind| kind.name() == word)?;
         let source = match kind.subject() {
-            Subject::Node | Subject::Section | Subject::ShellNode => node(reader, kind)?,
+            Subject::Node | Subject::Section | Subject::ShellNode | Subject::SolidNode => node(reader, kind)?,
             Subject::Joint => OutputSource::Joint(reader.name_in("of")?),
             Subject::Spring => OutputSource::Spring(reader.name_in("of")?),
             Subject::Contact => OutputSource::Contact(reader.name_in("of")?),

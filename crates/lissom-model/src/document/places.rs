@@ -6,7 +6,7 @@ use super::NodeReference;
 use super::entries::PARTS;
 use crate::format::suggest;
 use crate::parts::context::Context;
-use crate::reading::node_reference::ShellPlace;
+use crate::reading::node_reference::MeshPlace;
 use crate::text::Node;
 use crate::text::ScopeId;
 use crate::text::Value;
@@ -88,9 +88,10 @@ impl Context<'_> {
             let element = full.rsplit_once('.').map(|(element, _)| element);
             full == "ground"
                 || is_there(full)
-                || beam.is_some_and(|beam| self.has("beams", beam) || self.has("shells", beam))
-                || element
-                    .is_some_and(|element| self.has("superelements", element) || self.has("shells", element))
+                || beam.is_some_and(|beam| self.has("beams", beam) || self.mesh_table(beam).is_some())
+                || element.is_some_and(|element| {
+                    self.has("superelements", element) || self.mesh_table(element).is_some()
+                })
         })
     }
 
@@ -115,8 +116,8 @@ impl Context<'_> {
                         `reaction`";
             return self.fail(span, message, help);
         }
-        if self.is_of_shell(text) {
-            return self.shell_node(text, span, what);
+        if self.is_of_mesh(text) {
+            return self.mesh_node(text, span, what);
         }
         if let Some((superelement, interface)) = self.interface_in(text) {
             return self.interface((superelement, interface), span, what);
@@ -161,40 +162,55 @@ impl Context<'_> {
         for (shell, _) in self.names("shells") {
             names.extend(["west", "east", "south", "north"].map(|side| format!("{shell}.{side}")));
         }
+        for (solid, _) in self.names("solids") {
+            names.extend(
+                ["west", "east", "south", "north", "bottom", "top"].map(|side| format!("{solid}.{side}")),
+            );
+        }
         for (element, _) in self.names("superelements") {
             names.extend(self.interface_names(element).map(|interface| format!("{element}.{interface}")));
         }
         names
     }
-    /// Whether a text names a shell or nodes of one.
-    fn is_of_shell(&self, text: &str) -> bool {
-        let shell = text.split_once('@').or(text.rsplit_once('.')).map_or(text, |(shell, _)| shell);
-        self.has("shells", text) || self.has("shells", shell)
+
+    /// The table of the shell or solid of this name.
+    fn mesh_table(&self, name: &str) -> Option<&'static str> {
+        ["shells", "solids"].into_iter().find(|table| self.has(table, name))
     }
 
-    /// A node or set of nodes of a shell.
-    fn shell_node(&self, text: &str, span: Span, what: &str) -> Option<NodeReference> {
-        let reference = |shell: &str, place| Some(NodeReference::Shell { shell: shell.to_owned(), place });
-        let help = |shell: &str| {
+    /// Whether a text names a shell or solid, or nodes of one.
+    fn is_of_mesh(&self, text: &str) -> bool {
+        let part = text.split_once('@').or(text.rsplit_once('.')).map_or(text, |(part, _)| part);
+        self.mesh_table(text).is_some() || self.mesh_table(part).is_some()
+    }
+
+    /// A node or set of nodes of a shell or solid.
+    fn mesh_node(&self, text: &str, span: Span, what: &str) -> Option<NodeReference> {
+        let reference = |part: &str, place| Some(NodeReference::Mesh { part: part.to_owned(), place });
+        let (word, kind, count, all) = match self.mesh_table(text.split(['@', '.']).next().unwrap_or(text)) {
+            Some("solids") => ("solid", "volume", 3, "0.5,1,0\" at u, v and w"),
+            _ => ("shell", "surface", 2, "0.5,1\" at u and v"),
+        };
+        let help = |part: &str| {
             format!(
-                "say which nodes: \"{shell}@0.5,1\" at u and v from 0 to 1, a side as \"{shell}.west\", or one of its `sets`"
+                "say which nodes: \"{part}@{all} from 0 to 1, a side as \"{part}.west\", or one of its `sets`"
             )
         };
-        if self.has("shells", text) {
-            let message = format!("{what} names the shell `{text}`, which is a surface, not a node");
+        if self.mesh_table(text).is_some() {
+            let message = format!("{what} names the {word} `{text}`, which is a {kind}, not a node");
             return self.fail(span, message, help(text));
         }
-        if let Some((shell, fractions)) = text.split_once('@') {
+        if let Some((part, fractions)) = text.split_once('@') {
             let number = |text: &str| text.trim().parse::<f64>().ok().filter(|u| (0.0..=1.0).contains(u));
-            let both = fractions.split_once(',').and_then(|(u, v)| Some([number(u)?, number(v)?]));
-            let Some(both) = both else {
-                let message = format!("{what} names `{text}`, which is no position on the shell `{shell}`");
-                return self.fail(span, message, help(shell));
+            let all: Option<Vec<f64>> = fractions.split(',').map(number).collect();
+            let Some(all) = all.filter(|all| all.len() == count) else {
+                let message = format!("{what} names `{text}`, which is no position on the {word} `{part}`");
+                return self.fail(span, message, help(part));
             };
-            return reference(shell, ShellPlace::Fractions(both));
+            return reference(part, MeshPlace::Fractions(all));
         }
-        let (shell, set) = text.rsplit_once('.')?;
-        reference(shell, ShellPlace::Set(set.to_owned()))
+        let (part, set) = text.rsplit_once('.')?;
+        reference(part, MeshPlace::Set(set.to_owned()))
     }
 
     /// The superelement and the interface of a name of this form.

@@ -46,13 +46,12 @@ fn single_nodes(document: &Document, _: &Places) -> Vec<Doubt> {
     let turns = |component: &&Component| matches!(component.kind.value.as_str(), "clamp" | "moment");
     let all = document.joints.iter().chain(&document.loads).filter(turns);
     let doubt = |component: &Component| {
-        let is_shell = |node: &NodeReference| matches!(node, NodeReference::Shell { .. });
+        let is_shell = |node: &NodeReference| matches!(node, NodeReference::Mesh { part, .. } if document.shell(part).is_some());
         let nodes = component.attachment.nodes.iter().map(|own| &own.node);
         let own = nodes.clone().find(|own| is_shell(&own.value))?;
-        let NodeReference::Shell { shell, place } = &own.value else { return None };
+        let NodeReference::Mesh { part: shell, place } = &own.value else { return None };
         let is_other = nodes.filter(|own| is_shell(&own.value)).count() == 1;
-        let is_single =
-            document.shell(shell)?.mesh.nodes_at(shell, place).is_ok_and(|nodes| nodes.len() == 1);
+        let is_single = document.mesh(shell)?.nodes_at(shell, place).is_ok_and(|nodes| nodes.len() == 1);
         (is_other && is_single).then(|| {
             let message = format!(
                 "`{}` acts on one node of shell `{shell}`, which hardly resists a moment about its normal there",
@@ -65,13 +64,13 @@ fn single_nodes(document: &Document, _: &Places) -> Vec<Doubt> {
     all.filter_map(doubt).collect()
 }
 
-/// Joints between two sets of nodes of shells, of which one node is farther from the nearest of the other than half the set is long.
+/// Joints between two sets of nodes of shells or solids, of which one node is farther from the nearest of the other than half the set is long.
 fn far_sets(document: &Document, _: &Places) -> Vec<Doubt> {
     let positions = |node: &NodeReference| {
-        let NodeReference::Shell { shell, place } = node else { return None };
-        let mesh = &document.shell(shell)?.mesh;
-        let nodes = mesh.nodes_at(shell, place).ok()?;
-        Some(nodes.iter().map(|&node| mesh.positions[node]).collect::<Vec<_>>())
+        let NodeReference::Mesh { part, place } = node else { return None };
+        let mesh = document.mesh(part)?;
+        let nodes = mesh.nodes_at(part, place).ok()?;
+        Some(nodes.iter().map(|&node| mesh.positions()[node]).collect::<Vec<_>>())
     };
     let doubt = |joint: &Component| {
         let [base, tip] = joint.attachment.nodes.as_slice() else { return None };

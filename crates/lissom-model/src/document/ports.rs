@@ -10,7 +10,7 @@ use crate::expression::Formula;
 use crate::format::keys::Shape;
 use crate::line::are_parallel;
 use crate::parts::context::Context;
-use crate::reading::node_reference::ShellPlace;
+use crate::reading::node_reference::MeshPlace;
 use crate::reading::reader::Reader;
 use crate::text::ScopeId;
 use crate::text::report::{Located, Problem};
@@ -114,7 +114,7 @@ fn location(
     let mut all = default.iter().map(|key| &nodes[ports.node(key)].node.value);
     let first = all.clone().next()?;
     let node = all.find(|node| **node != NodeReference::Ground).unwrap_or(first);
-    if matches!(node, NodeReference::Shell { place: ShellPlace::Set(_), .. }) {
+    if matches!(node, NodeReference::Mesh { place: MeshPlace::Set(_), .. }) {
         return Some(LocatedAt::EachNode);
     }
     own_place(reader.context, reader.scope, node, places).map(LocatedAt::Place)

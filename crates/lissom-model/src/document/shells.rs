@@ -14,8 +14,9 @@ use crate::format::keys::{Key, Shape, optional, required};
 use crate::format::part_tables::placed_in;
 use crate::format::suggest;
 use crate::parts::context::Context;
+use crate::reading::mesh_nodes::ALL;
 use crate::reading::reader::Reader;
-use crate::reading::shell_mesh::{ALL, ShellMesh};
+use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
@@ -205,7 +206,7 @@ impl Shape {
         ]
     }
 
-    /// Keys of a set of nodes of a shell.
+    /// Keys of a set of nodes.
     fn set_keys() -> Vec<Key> {
         vec![
             optional("near", Self::Place, "m", "the nearest node"),
@@ -233,7 +234,7 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
         if reader.flag("join")?.value {
             join(&mut mesh);
         }
-        sets(reader, &mut mesh)?;
+        sets(reader, &mesh.positions, &mut mesh.sets)?;
         let shell = Shell {
             name: Located::new(name.to_owned(), reader.name),
             mesh: Arc::new(mesh),
@@ -270,7 +271,7 @@ fn mesh_of(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
                     "add `divisions = [8, 4]`: elements along u and v",
                 );
             };
-            let divisions = divisions(reader, node)?;
+            let divisions = divisions::<2>(reader, node, "[8, 4]")?;
             let surface = if key == "corners" { corners(reader)? } else { expressions(reader)? };
             patch(reader, &surface, divisions).map(|mesh| (mesh, None))
         }
@@ -285,12 +286,18 @@ fn mesh_of(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
 /// Most elements along one side of a patch.
 const MAX_DIVISIONS: f64 = 2000.0;
 
-fn divisions(reader: &Reader<'_, '_>, node: &Node) -> Option<[usize; 2]> {
+/// Numbers of elements along each coordinate.
+pub(super) fn divisions<const COUNT: usize>(
+    reader: &Reader<'_, '_>,
+    node: &Node,
+    example: &str,
+) -> Option<[usize; COUNT]> {
     let what = reader.words("divisions");
-    let numbers = reader.context.numbers::<2>(node, &what)?;
+    let numbers = reader.context.numbers::<COUNT>(node, &what)?;
     if let Some(wrong) = numbers.iter().find(|n| n.fract() != 0.0 || !(1.0..=MAX_DIVISIONS).contains(*n)) {
         let message = format!("{what} must be whole numbers from 1 to {MAX_DIVISIONS}, not {wrong}");
-        return reader.context.fail(node.span, message, "write for example `divisions = [8, 4]`");
+        let help = format!("write for example `divisions = {example}`");
+        return reader.context.fail(node.span, message, help);
     }
     Some(numbers.map(|number| number as usize))
 }
@@ -343,7 +350,7 @@ fn expressions(reader: &Reader<'_, '_>) -> Option<PointOf> {
 }
 
 /// An expression that names nothing but these arguments and the parameters.
-fn formula(reader: &Reader<'_, '_>, node: &Node, what: &str, known: &[&str]) -> Option<Formula> {
+pub(super) fn formula(reader: &Reader<'_, '_>, node: &Node, what: &str, known: &[&str]) -> Option<Formula> {
     let formula = reader.context.own_formula(node, what)?;
     let unknown = formula.arguments().iter().find(|name| !known.contains(&name.text.as_str()));
     let is_of_time = formula.depends_on_time() && !known.contains(&"t");
@@ -479,16 +486,16 @@ fn of_mesh(mesh: &Mesh, frame: &Motion, scale: f64) -> ShellMesh {
     }
 }
 
-/// Makes nodes at the same position one.
-fn join(mesh: &mut ShellMesh) {
-    let size = mesh.positions.iter().fold(0.0_f64, |most, position| most.max(position.amax()));
+/// Nodes at the same position as one: which are kept, and the new number of each.
+pub(super) fn coincident(positions: &[Vector3]) -> (Vec<usize>, Vec<usize>) {
+    let size = positions.iter().fold(0.0_f64, |most, position| most.max(position.amax()));
     let near = SAME * size;
-    let mut order: Vec<usize> = (0..mesh.positions.len()).collect();
-    order.sort_by(|&a, &b| mesh.positions[a].x.total_cmp(&mesh.positions[b].x));
-    let mut first: Vec<usize> = (0..mesh.positions.len()).collect();
+    let mut order: Vec<usize> = (0..positions.len()).collect();
+    order.sort_by(|&a, &b| positions[a].x.total_cmp(&positions[b].x));
+    let mut first: Vec<usize> = (0..positions.len()).collect();
     for (k, &node) in order.iter().enumerate() {
         for &other in &order[k + 1..] {
-            let apart = mesh.positions[other] - mesh.positions[node];
+            let apart = positions[other] - positions[node];
             if apart.x > near {
                 break;
             }
@@ -501,7 +508,14 @@ fn join(mesh: &mut ShellMesh) {
     let kept: Vec<usize> = (0..first.len()).filter(|&node| first[node] == node).collect();
     let mut renumbered = vec![0; first.len()];
     kept.iter().enumerate().for_each(|(new, &old)| renumbered[old] = new);
-    let number = |node: usize| renumbered[first[node]];
+    (kept, first.iter().map(|&node| renumbered[node]).collect())
+}
+
+/// Makes nodes at the same position one.
+fn join(mesh: &mut ShellMesh) {
+    let (kept, numbers) = coincident(&mesh.positions);
+    let number = |node: usize| numbers[node];
+    let first: Vec<usize> = numbers.iter().map(|&new| kept[new]).collect();
     // Along a fold the normals of the two sides differ: then they are those of the elements.
     if let Some(normals) = &mesh.normals
         && (0..first.len()).any(|node| normals[node].dot(&normals[first[node]]) < 0.999)
@@ -525,7 +539,12 @@ fn join(mesh: &mut ShellMesh) {
     }
 }
 
-fn sets(reader: &Reader<'_, '_>, mesh: &mut ShellMesh) -> Option<()> {
+/// Reads `sets` of nodes at these positions.
+pub(super) fn sets(
+    reader: &Reader<'_, '_>,
+    positions: &[Vector3],
+    sets: &mut BTreeMap<String, Vec<usize>>,
+) -> Option<()> {
     let context = reader.context;
     let Some(node) = reader.node("sets") else { return Some(()) };
     let Some(table) = node.table() else {
@@ -539,7 +558,7 @@ fn sets(reader: &Reader<'_, '_>, mesh: &mut ShellMesh) -> Option<()> {
             None => Some(None),
         };
         let (near, center, from, to) = (place("near")?, place("center")?, place("from")?, place("to")?);
-        let all = mesh.positions.iter().enumerate();
+        let all = positions.iter().enumerate();
         let found: Vec<usize> = match (near, center, from, to) {
             (Some(near), None, None, None) => {
                 let distance = |position: &Vector3| (position - near).norm();
@@ -577,7 +596,7 @@ fn sets(reader: &Reader<'_, '_>, mesh: &mut ShellMesh) -> Option<()> {
         if found.is_empty() {
             return context.fail(entry.node.span, format!("{what} contains no node"), "make it larger");
         }
-        mesh.sets.insert(name.clone(), found);
+        sets.insert(name.clone(), found);
     }
     Some(())
 }

@@ -24,6 +24,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "sections" => (Some("shape"), sections()),
         "beams" => (None, vec![single(beam())]),
         "shells" => (None, vec![single(super::shells::keys())]),
+        "solids" => (None, vec![single(super::elastic_solids::keys())]),
         "bodies" => (None, vec![single(body())]),
         "parts" => (None, vec![single(part())]),
         "point_masses" => (None, vec![single(point_mass())]),
@@ -252,6 +253,9 @@ fn outputs() -> Vec<Variant> {
 fn output_subject(subject: Subject) -> Option<Key> {
     Some(match subject {
         Subject::Node | Subject::Section => required("of", Shape::Node, "", "the node, such as \"beam@0.5\""),
+        Subject::SolidNode => {
+            required("of", Shape::Node, "", "the node of a solid, such as \"block@0.5,1,0\"")
+        }
         Subject::ShellNode => required("of", Shape::Node, "", "the node of a shell, such as \"panel@0.5,1\""),
         Subject::Joint => required("of", Shape::Name("joints"), "", "the joint"),
         Subject::Spring => required("of", Shape::Name("springs"), "", "the spring"),

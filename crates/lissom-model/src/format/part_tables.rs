@@ -122,7 +122,7 @@ pub(crate) fn part_motion() -> Vec<Key> {
         "parts",
         Shape::Names,
         "",
-        "bodies, point masses, beams, shells, superelements and entries of [parts] with this motion",
+        "bodies, point masses, beams, shells, solids, superelements and entries of [parts] with this motion",
     )];
     keys.extend(
         initial()
@@ -154,7 +154,7 @@ pub(crate) fn initial() -> Vec<Key> {
             "follow_drives",
             Shape::Flag,
             "",
-            "beams, shells and superelements without given velocities start with those of their drive, otherwise at rest",
+            "beams, shells, solids and superelements without given velocities start with those of their drive, otherwise at rest",
         )
         .or_flag(true),
     ]

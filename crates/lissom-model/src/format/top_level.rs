@@ -31,7 +31,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 26] = [
+pub(crate) static TOP: [Top; 27] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top(
@@ -57,6 +57,7 @@ pub(crate) static TOP: [Top; 26] = [
     ),
     top("beams", Holds::Entries, false, "Flexible beams."),
     top("shells", Holds::Entries, false, "Flexible shells and plates: curved surfaces of finite elements."),
+    top("solids", Holds::Entries, false, "Elastic solids: volumes of finite elements."),
     top("bodies", Holds::Entries, false, "Rigid bodies."),
     top("point_masses", Holds::Entries, false, "Point masses."),
     top("superelements", Holds::Entries, false, "Linear elastic parts, specified by reduced matrices."),
@@ -140,6 +141,7 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "points" => "point",
         "beams" => "beam",
         "shells" => "shell",
+        "solids" => "solid",
         "bodies" => "body",
         "point_masses" => "point mass",
         "superelements" => "superelement",

@@ -84,6 +84,10 @@ pub(crate) enum Shape {
     Surface,
     /// Two whole numbers.
     Divisions,
+    /// Three numbers or expressions of `u`, `v` and `w`, in global axes; those of the part inside of one.
+    Volume,
+    /// Three whole numbers.
+    VolumeDivisions,
     /// A number, or an expression of `u` and `v`.
     Thickness,
     /// A number, or an expression of `u`, `v` and `t`.
@@ -183,6 +187,7 @@ impl Shape {
                 | Self::Distribution
                 | Self::Corners
                 | Self::Surface
+                | Self::Volume
                 | Self::AreaDistribution
                 | Self::Axes
                 | Self::Rotation
@@ -311,6 +316,13 @@ impl Shape {
             Self::Divisions => {
                 let count = number_in(&json!({ "type": "integer", "minimum": 1 }));
                 row("two whole numbers", list(&count, 2), Fixed("[f64; 2]"), "Vector")
+            }
+            Self::Volume => {
+                row("three expressions of `u`, `v` and `w`", vector(), Fixed("[Expression; 3]"), "Vector")
+            }
+            Self::VolumeDivisions => {
+                let count = number_in(&json!({ "type": "integer", "minimum": 1 }));
+                row("three whole numbers", list(&count, 3), Fixed("[f64; 3]"), "Vector")
             }
             Self::Thickness => {
                 row("a number or an expression of `u` and `v`", number(), Fixed("Expression"), "Number")

@@ -9,6 +9,7 @@ mod couplings;
 mod delay;
 mod discrete_filter;
 mod distributed;
+mod elastic_solids;
 mod latches;
 mod local_loads;
 mod measurements;

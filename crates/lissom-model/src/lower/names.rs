@@ -13,7 +13,9 @@ use crate::document::Component;
 use crate::outputs::contact_point::PointsOfContacts;
 use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::outputs::shell_nodes::BuiltShell;
+use crate::outputs::solid_nodes::BuiltSolid;
 use crate::outputs::{Deformed, Resolver};
+use crate::reading::mesh_nodes::BuiltNodes;
 use crate::reading::node_reference::{NodeReference, interface_name};
 use crate::text::report::{Located, Problem};
 
@@ -30,6 +32,8 @@ pub struct Names {
     pub lines: BTreeMap<String, BeamLine>,
     /// Nodes and elements of each shell.
     pub shells: BTreeMap<String, BuiltShell>,
+    /// Nodes and elements of each elastic solid.
+    pub solids: BTreeMap<String, BuiltSolid>,
     /// Joints in the order of the file.
     pub joints: Vec<String>,
     /// Inputs in the order of the file.
@@ -70,9 +74,7 @@ impl Names {
                 let name = interface_name(superelement, interface);
                 self.nodes.get(&name).copied().ok_or_else(|| unknown(&name))
             }
-            NodeReference::Shell { shell, .. } => {
-                self.shells.get(shell).ok_or_else(|| unknown(shell))?.one(reference)
-            }
+            NodeReference::Mesh { part, .. } => self.mesh(part).ok_or_else(|| unknown(part))?.one(reference),
             NodeReference::Beam { beam, fraction } => {
                 let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
                 line.node_at(*fraction).ok_or_else(|| no_node(reference, beam, line, *fraction))
@@ -82,15 +84,27 @@ impl Names {
 }
 
 impl Names {
-    /// All nodes a reference means: several for a set of a shell, otherwise one. With their shares of what is spread over them.
+    /// The nodes of a shell or solid.
+    pub fn mesh(&self, name: &str) -> Option<BuiltNodes<'_>> {
+        let of_solid = || self.solids.get(name).map(BuiltSolid::nodes);
+        self.shells.get(name).map(BuiltShell::nodes).or_else(of_solid)
+    }
+
+    /// Those of all shells and solids, with their names.
+    pub fn meshes(&self) -> impl Iterator<Item = (&str, BuiltNodes<'_>)> {
+        let shells = self.shells.iter().map(|(name, own)| (name.as_str(), own.nodes()));
+        shells.chain(self.solids.iter().map(|(name, own)| (name.as_str(), own.nodes())))
+    }
+
+    /// All nodes a reference means: several for a set of a shell or solid, otherwise one. With their shares of what is spread over them.
     pub(super) fn nodes(&self, reference: &Located<NodeReference>) -> Result<Vec<(NodeId, f64)>, Problem> {
-        let NodeReference::Shell { shell, .. } = &reference.value else {
+        let NodeReference::Mesh { part, .. } = &reference.value else {
             return Ok(vec![(self.node(reference)?, 1.0)]);
         };
-        let Some(built) = self.shells.get(shell) else { return Ok(vec![(self.node(reference)?, 1.0)]) };
+        let Some(built) = self.mesh(part) else { return Ok(vec![(self.node(reference)?, 1.0)]) };
         let indices = built.indices(reference)?;
         let shares = built.mesh.shares(&indices);
-        Ok(indices.iter().zip(shares).map(|(&index, share)| (built.surface.nodes[index], share)).collect())
+        Ok(indices.iter().zip(shares).map(|(&index, share)| (built.nodes[index], share)).collect())
     }
 }
 
@@ -119,6 +133,7 @@ impl Names {
             nodes: &self.nodes,
             lines: &self.lines,
             shells: &self.shells,
+            solids: &self.solids,
             deformations: &self.deformations,
             coordinates: &self.coordinates,
             springs: &self.springs,

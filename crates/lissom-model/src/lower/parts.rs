@@ -24,6 +24,7 @@ pub(super) fn add(
     point_masses(document, builder, names);
     super::superelements::add(document, builder, names, problems);
     super::shells::add(document, builder, names, problems);
+    super::elastic_solids::add(document, builder, names, problems);
     beams(document, builder, names, problems);
 }
 
@@ -84,9 +85,8 @@ pub(super) fn velocities(document: &Document, names: &Names, system: &System, at
             set(node, &|frame| initial_motion(document.initial_motion(name), frame));
         }
     }
-    for shell in &document.shells {
-        let name = &shell.name.value;
-        for &node in names.shells.get(name).into_iter().flat_map(|shell| &shell.surface.nodes) {
+    for (name, own) in names.meshes() {
+        for &node in own.nodes {
             set(node, &|frame| initial_motion(document.initial_motion(name), frame));
         }
     }

@@ -10,7 +10,7 @@ use lissom_system::{BeamChain, Builder};
 
 use super::names::{Names, parameter_problem};
 use crate::document::{Beam, Component, CoordinateName, Document, NodeLocation};
-use crate::reading::node_reference::{NodeReference, ShellPlace};
+use crate::reading::node_reference::{MeshPlace, NodeReference};
 use crate::text::report::{Located, Problem};
 
 /// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: the line through their nodes is smooth.
@@ -44,7 +44,7 @@ pub(super) fn of_sets(
     let Some(leading) = (0..found.len()).rev().find(|&k| is_set(k)) else {
         // A set of one node has the location of its node.
         let is_set = |own: &&NodeLocation| {
-            matches!(own.node.value, NodeReference::Shell { place: ShellPlace::Set(_), .. })
+            matches!(own.node.value, NodeReference::Mesh { place: MeshPlace::Set(_), .. })
         };
         let set = listed.iter().position(|own| is_set(&own)).map(|k| place(found[k][0].0));
         let one = |(own, nodes): (&NodeLocation, &Vec<(NodeId, f64)>)| (nodes[0].0, own.at.or(set));

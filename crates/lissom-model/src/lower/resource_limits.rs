@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::document::{AnalysisKind, Document};
+use crate::document::{AnalysisKind, Document, ElasticSolid};
 use crate::files;
 use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Problem, Report};
@@ -41,7 +41,10 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     let nodes = |beam: &crate::document::Beam| beam.elements.value as f64 * beam.order as f64;
     let in_shell = |shell: &Arc<ShellMesh>| PER_NODE * shell.positions.len() as f64;
     let of_shells = document.shells.iter().map(|shell| in_shell(&shell.mesh)).sum::<f64>();
-    let memory = of_shells + PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
+    // A node has half the unknowns of one of a beam, and more neighbours.
+    let in_solid = |solid: &ElasticSolid| 2.0 * PER_NODE * solid.mesh.positions.len() as f64;
+    let of_solids = document.elastic_solids.iter().map(in_solid).sum::<f64>();
+    let memory = of_shells + of_solids + PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
     // The available memory is not queried for small models: that would take a tenth of the time of a sweep's member.
     if memory <= SMALL {
         return;
@@ -62,6 +65,20 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
         );
         let help = "use fewer elements, or a machine with more memory";
         problems.push(Problem::error(shell.name.span, message).help(help));
+        return;
+    }
+    if let Some(solid) = document.elastic_solids.iter().max_by_key(|solid| solid.mesh.positions.len())
+        && 2.0 * of_solids > memory
+    {
+        let message = format!(
+            "the model requires about {} of memory, most of it for the {} elements of solid `{}`; available are {}",
+            size(memory),
+            solid.mesh.element_count(),
+            solid.name.value,
+            size(available)
+        );
+        let help = "use fewer elements, or a machine with more memory";
+        problems.push(Problem::error(solid.name.span, message).help(help));
         return;
     }
     let Some(largest) = document.beams.iter().max_by(|a, b| nodes(a).total_cmp(&nodes(b))) else { return };

@@ -15,7 +15,7 @@ use lissom_system::Builder;
 use super::names::Names;
 use super::order::by_name;
 use crate::document::{AreaLoad, Document, Shell, area_arguments};
-use crate::expression::Formula;
+use crate::expression::{Expression, Formula};
 use crate::functions::{Ramp, of_expression};
 use crate::outputs::shell_nodes::BuiltShell;
 use crate::text::report::Problem;
@@ -100,22 +100,31 @@ fn add_load(
     Ok(())
 }
 
-/// A load at a place as a function of time; constant loads grow in load steps. It must be finite during the analysis.
+/// A load at a place as a function of time.
 fn function(
     document: &Document,
     (shell, load): (&Shell, &AreaLoad),
     formula: &Formula,
     place: [f64; 2],
 ) -> Result<Function, Problem> {
-    let function = of_expression(formula.with_arguments(&area_arguments(formula, place)));
-    let (start, end) = (document.analysis.start, document.analysis.end);
-    let mut times = (0..=INSTANTS).map(|i| start + (end - start) * f64::from(i) / f64::from(INSTANTS));
-    if let Some(time) = times.find(|time| !function.value(*time).is_finite()) {
+    let formula = formula.with_arguments(&area_arguments(formula, place));
+    of_load(document, formula).map_err(|time| {
         let message = format!(
             "a load per area of shell `{}` is not a finite number at u = {:.4}, v = {:.4}, t = {time}",
             shell.name.value, place[0], place[1]
         );
-        return Err(Problem::error(load.span, message));
+        Problem::error(load.span, message)
+    })
+}
+
+/// A load as a function of time; constant loads grow in load steps. It must be finite during the analysis: otherwise an instant at which it
+/// is not.
+pub(super) fn of_load(document: &Document, expression: Expression) -> Result<Function, f64> {
+    let function = of_expression(expression);
+    let (start, end) = (document.analysis.start, document.analysis.end);
+    let mut times = (0..=INSTANTS).map(|i| start + (end - start) * f64::from(i) / f64::from(INSTANTS));
+    if let Some(time) = times.find(|time| !function.value(*time).is_finite()) {
+        return Err(time);
     }
     if document.analysis.ramp && function.is_constant() {
         return Ok(Arc::new(Ramp { value: function.value(start), span: (start, end) }));

@@ -208,9 +208,7 @@ fn node_of_part(node: &Located<NodeReference>, names: &Resolver<'_>) -> Result<O
         NodeReference::Interface { superelement, interface } => {
             known(&interface_name(superelement, interface))?
         }
-        NodeReference::Shell { shell, .. } => {
-            names.shells.get(shell).ok_or_else(|| unknown(node, shell))?.one(node)?
-        }
+        NodeReference::Mesh { part, .. } => names.mesh(part).ok_or_else(|| unknown(node, part))?.one(node)?,
         NodeReference::Beam { .. } => return Ok(None),
     }))
 }

@@ -12,6 +12,8 @@ pub(crate) enum Subject {
     Section,
     /// A node of a shell.
     ShellNode,
+    /// A node of a solid.
+    SolidNode,
     Joint,
     Spring,
     Contact,
@@ -126,6 +128,8 @@ kinds! {
     ShellMoment = outputs::shell_stress::SHELL_MOMENT,
     /// Stresses at the faces of a shell [Pa], local axes.
     ShellStress = outputs::shell_stress::SHELL_STRESS,
+    /// Stresses of a solid [Pa], global axes.
+    SolidStress = outputs::solid_stress::KIND,
     /// Places of all nodes of a beam [m].
     Line = outputs::line::LINE,
     /// Modal coordinates of a superelement and their rates.

@@ -33,6 +33,8 @@ pub(crate) mod section;
 pub(crate) mod shell_nodes;
 pub(crate) mod shell_stress;
 pub(crate) mod signal;
+pub(crate) mod solid_nodes;
+pub(crate) mod solid_stress;
 pub(crate) mod spring;
 mod spring_force;
 mod touched;
@@ -58,6 +60,8 @@ use crate::outputs::contact_point::PointsOfContacts;
 use crate::outputs::entry::Output;
 use crate::outputs::local_load_points::LocalLoadPoints;
 use crate::outputs::shell_nodes::BuiltShell;
+use crate::outputs::solid_nodes::BuiltSolid;
+use crate::reading::mesh_nodes::BuiltNodes;
 use crate::text::report::Problem;
 
 use touched::Touched;
@@ -171,6 +175,7 @@ pub(crate) struct Resolver<'a> {
     pub(crate) nodes: &'a BTreeMap<String, NodeId>,
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
     pub(crate) shells: &'a BTreeMap<String, BuiltShell>,
+    pub(crate) solids: &'a BTreeMap<String, BuiltSolid>,
     pub(crate) deformations: &'a BTreeMap<String, Deformed>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
@@ -182,6 +187,14 @@ pub(crate) struct Resolver<'a> {
     pub(crate) local_loads: &'a BTreeMap<String, LocalLoadPoints>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
+}
+
+impl Resolver<'_> {
+    /// The nodes of a shell or solid.
+    pub(crate) fn mesh(&self, name: &str) -> Option<BuiltNodes<'_>> {
+        let of_solid = || self.solids.get(name).map(BuiltSolid::nodes);
+        self.shells.get(name).map(BuiltShell::nodes).or_else(of_solid)
+    }
 }
 
 /// What outputs refer to: names, and frames as far as they are known before the system is built.

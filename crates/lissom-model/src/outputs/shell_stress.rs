@@ -85,14 +85,14 @@ struct OfShell {
 fn of(output: &Output, subjects: &Subjects<'_>, what: What) -> Found {
     let (node, _) = node_of(output)?;
     let found = match &node.value {
-        NodeReference::Shell { shell, .. } => subjects.names.shells.get(shell),
+        NodeReference::Mesh { part, .. } => subjects.names.shells.get(part),
         _ => None,
     };
     let Some(shell) = found else {
         let message = format!("output `{}` is of a shell, and this is no node of one", output.name.value);
         return Err(Problem::error(node.span, message).help("name a node such as \"panel@0.5,1\""));
     };
-    let place = shell.one_index(node)?;
+    let place = shell.nodes().one_index(node)?;
     let mut corners = shell.corners(place);
     let whole: f64 = corners.iter().map(|corner| corner.share).sum();
     for corner in &mut corners {

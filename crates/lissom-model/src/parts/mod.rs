@@ -24,12 +24,13 @@ pub(crate) use names::PREVIOUS_SAMPLE;
 const MAX_PARTS: usize = 20_000;
 
 /// Tables whose entries may be placed relative to another part by `in`.
-const PLACED_TABLES: [&str; 10] = [
+const PLACED_TABLES: [&str; 11] = [
     "points",
     "bodies",
     "point_masses",
     "beams",
     "shells",
+    "solids",
     "superelements",
     "joints",
     "springs",

@@ -1,18 +1,21 @@
 //! References to nodes by name.
 
-/// Which nodes of a shell a reference means.
+/// Which nodes of a shell or solid a reference means.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ShellPlace {
-    /// u and v of a patch.
-    Fractions([f64; 2]),
+pub enum MeshPlace {
+    /// u and v of a patch, or u, v and w of a block.
+    Fractions(Vec<f64>),
     /// A set of nodes.
     Set(String),
 }
 
-impl std::fmt::Display for ShellPlace {
+impl std::fmt::Display for MeshPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Fractions([u, v]) => write!(formatter, "@{u},{v}"),
+            Self::Fractions(all) => {
+                let all: Vec<String> = all.iter().map(ToString::to_string).collect();
+                write!(formatter, "@{}", all.join(","))
+            }
             Self::Set(set) => write!(formatter, ".{set}"),
         }
     }
@@ -39,12 +42,12 @@ pub enum NodeReference {
         /// Fraction: 0 for its start, 1 for its end.
         fraction: f64,
     },
-    /// A node of a shell, or a set of its nodes.
-    Shell {
-        /// Name of the shell.
-        shell: String,
+    /// A node of a shell or solid, or a set of its nodes.
+    Mesh {
+        /// Name of the shell or solid.
+        part: String,
         /// Which of its nodes.
-        place: ShellPlace,
+        place: MeshPlace,
     },
     /// An interface of a superelement.
     Interface {

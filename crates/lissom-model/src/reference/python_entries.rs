@@ -16,8 +16,8 @@ const FILES: [(&str, &str, &[&str]); 10] = [
     ("sections", "Materials and cross sections.", &["materials", "sections"]),
     (
         "parts",
-        "Beams, shells, rigid bodies, point masses, superelements and sub-assemblies.",
-        &["beams", "shells", "bodies", "point_masses", "superelements", "parts"],
+        "Beams, shells, solids, rigid bodies, point masses, superelements and sub-assemblies.",
+        &["beams", "shells", "solids", "bodies", "point_masses", "superelements", "parts"],
     ),
     ("joints", "What holds nodes together, one class per kind.", &["joints"]),
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),

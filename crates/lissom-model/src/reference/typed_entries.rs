@@ -19,10 +19,11 @@ const FILES: [(&str, &str, &[TableAndId]); 10] = [
     ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
     (
         "parts",
-        "Beams, shells, rigid bodies, point masses and superelements.",
+        "Beams, shells, solids, rigid bodies, point masses and superelements.",
         &[
             ("beams", "BeamId"),
             ("shells", "ShellId"),
+            ("solids", "SolidId"),
             ("bodies", "BodyId"),
             ("point_masses", "PointMassId"),
             ("superelements", "SuperelementId"),
@@ -274,6 +275,7 @@ fn single(table: &str) -> &'static str {
         "materials" => "material",
         "beams" => "beam",
         "shells" => "shell",
+        "solids" => "elastic_solid",
         "bodies" => "body",
         "point_masses" => "point_mass",
         "superelements" => "superelement",
@@ -292,6 +294,7 @@ fn summary_of(table: &str) -> &'static str {
         "materials" => "An isotropic elastic material.",
         "beams" => "A flexible beam.",
         "shells" => "A flexible shell or plate.",
+        "solids" => "An elastic solid.",
         "bodies" => "A rigid body.",
         "point_masses" => "A mass without extension.",
         "superelements" => "A linear elastic part that is given by reduced matrices.",

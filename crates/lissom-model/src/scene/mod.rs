@@ -6,6 +6,7 @@
 
 mod connections;
 mod dimensions;
+mod elastic_solids;
 mod kinds;
 mod parts;
 mod path_values;
@@ -28,6 +29,7 @@ use crate::text::report::Located;
 
 pub use crate::sections::Outline;
 pub use connections::{BeamLoad, DISTRIBUTED_LOCAL_LOAD, Joint, LOCAL_LOAD, Load, Spring};
+pub use elastic_solids::ElasticSolid;
 pub use parts::{Beam, Body, PointMass, Station};
 pub use path_values::PathValues;
 pub use places::{Anchor, Placed, Table};
@@ -80,6 +82,9 @@ pub struct Scene {
     /// Shells.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shells: Vec<Shell>,
+    /// Elastic solids.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub elastic_solids: Vec<ElasticSolid>,
     /// Joints, drives, and superelements, which connect their interfaces.
     pub joints: Vec<Joint>,
     /// Springs.
@@ -137,6 +142,7 @@ impl Scene {
             point_masses: parts::point_masses(document, &places),
             beams: parts::beams(document, &places),
             shells: shells::shells(document, &places),
+            elastic_solids: elastic_solids::elastic_solids(document, &places),
             joints,
             springs: connections::springs(document, &places),
             loads: connections::loads(document, &places),
@@ -174,7 +180,8 @@ impl Scene {
         let parts = (self.bodies.iter().map(|body| body.node))
             .chain(self.point_masses.iter().map(|mass| mass.node))
             .chain(self.beams.iter().flat_map(|beam| beam.nodes.iter().copied()))
-            .chain(self.shells.iter().flat_map(|shell| shell.nodes.iter().copied()));
+            .chain(self.shells.iter().flat_map(|shell| shell.nodes.iter().copied()))
+            .chain(self.elastic_solids.iter().flat_map(|solid| solid.nodes.iter().copied()));
         anchors.map(|anchor| anchor.node).chain(parts).max().unwrap_or(GROUND)
     }
 

@@ -63,7 +63,7 @@ impl Places<'_> {
             NodeReference::Interface { superelement, interface } => {
                 names.nodes.get(&interface_name(superelement, interface)).copied()
             }
-            NodeReference::Shell { shell, place } => names.shells.get(shell)?.middle(place),
+            NodeReference::Mesh { part, place } => names.mesh(part)?.middle(place),
             NodeReference::Beam { beam, fraction } => names.lines.get(beam)?.node_at(*fraction),
         }
     }
@@ -106,7 +106,7 @@ pub(super) fn part_of(reference: &NodeReference) -> &str {
         NodeReference::Ground => "ground",
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,
         NodeReference::Beam { beam, .. } => beam,
-        NodeReference::Shell { shell, .. } => shell,
+        NodeReference::Mesh { part, .. } => part,
         NodeReference::Interface { superelement, .. } => superelement,
     }
 }

@@ -17,14 +17,21 @@ pub(super) struct Deformation {
 }
 
 impl Deformation {
-    pub(super) fn new<const NODES: usize>(displacements: &[Vector3; NODES], slopes: &[Vector3; NODES]) -> Self {
+    pub(super) fn new<const NODES: usize>(
+        displacements: &[Vector3; NODES],
+        slopes: &[Vector3; NODES],
+    ) -> Self {
         let displacement: Matrix3 =
             displacements.iter().zip(slopes).map(|(shift, slope)| shift * slope.transpose()).sum();
         let gradient = Matrix3::identity() + displacement;
         let determinant = gradient.determinant();
         let nowhere = Matrix3::repeat(f64::NAN);
-        let inside_out =
-            Self { displacement: nowhere, gradient: nowhere, determinant: f64::NAN, inverse_transpose: nowhere };
+        let inside_out = Self {
+            displacement: nowhere,
+            gradient: nowhere,
+            determinant: f64::NAN,
+            inverse_transpose: nowhere,
+        };
         match gradient.try_inverse() {
             Some(inverse) if determinant > 0.0 => {
                 Self { displacement, gradient, determinant, inverse_transpose: inverse.transpose() }

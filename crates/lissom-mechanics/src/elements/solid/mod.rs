@@ -45,7 +45,7 @@ pub struct Solid<const NODES: usize, const POINTS: usize> {
 /// A tetrahedron with ten nodes.
 pub type Tetrahedron = Solid<10, 4>;
 /// A hexahedron with twenty nodes.
-pub type Hexahedron = Solid<20, 14>;
+pub type Hexahedron = Solid<20, 21>;
 
 impl Tetrahedron {
     /// A tetrahedron, stress-free with its nodes at `positions` [m].
@@ -105,7 +105,8 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
 
     fn deformed_to(&self, positions: &[Vector3; NODES]) -> Deformed<POINTS> {
         let displacements = self.displacements(positions);
-        let points = self.reference.gradients.each_ref().map(|slopes| Deformation::new(&displacements, slopes));
+        let points =
+            self.reference.gradients.each_ref().map(|slopes| Deformation::new(&displacements, slopes));
         let mean = self.law.bulk_of_mean() * self.mean_dilatation(&points);
         Deformed { points, mean }
     }

@@ -32,7 +32,8 @@ pub(super) fn gradients<const NODES: usize>(
     functions: &Functions<NODES>,
     positions: &[Vector3; NODES],
 ) -> Result<([Vector3; NODES], f64), Inverted> {
-    let slope: Matrix3 = positions.iter().zip(&functions.slopes).map(|(x, slope)| x * slope.transpose()).sum();
+    let slope: Matrix3 =
+        positions.iter().zip(&functions.slopes).map(|(x, slope)| x * slope.transpose()).sum();
     let volume = slope.determinant();
     match slope.try_inverse() {
         Some(inverse) if volume > 0.0 => Ok((functions.slopes.map(|slope| inverse.tr_mul(&slope)), volume)),

@@ -35,9 +35,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         };
         let first = shift(0);
         let shifts: [Vector3; NODES] = std::array::from_fn(|i| shift(i) - first);
-        let mut rates = stages.each_ref().map(|(velocities, deformed)| {
-            self.rates(&velocities.all, deformed)
-        });
+        let mut rates = stages.each_ref().map(|(velocities, deformed)| self.rates(&velocities.all, deformed));
         let mut missed: [Matrix3; POINTS] = std::array::from_fn(|p| {
             let middle = 0.5 * (start.points[p].gradient + end.points[p].gradient);
             strain_change(&middle, &gradient(&shifts, &self.reference.gradients[p]))
@@ -73,7 +71,8 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         for j in 0..STAGES {
             self.forces(step.stages[j], out[j]);
             let forces = out[j].chunks_exact(6);
-            powers[j] = forces.zip(&velocities[j].all).map(|(f, v)| f[0] * v.x + f[1] * v.y + f[2] * v.z).sum();
+            powers[j] =
+                forces.zip(&velocities[j].all).map(|(f, v)| f[0] * v.x + f[1] * v.y + f[2] * v.z).sum();
         }
         let missed = energies[1] - energies[0] - step.whole(powers);
         // Energies are differences of terms of the size of the shear modulus.

@@ -28,8 +28,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
             }
             for (j, slope) in slopes.iter().enumerate() {
                 for k in 0..3 {
-                    let change =
-                        volume * self.law.stress_change(point, (&geometric[p], mean), (k, slope));
+                    let change = volume * self.law.stress_change(point, (&geometric[p], mean), (k, slope));
                     // The tangent is symmetric: rows from the diagonal block on.
                     for (i, other) in slopes.iter().enumerate().skip(j) {
                         let force = change * other;
@@ -60,7 +59,11 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
     }
 
     /// Second stresses of the geometric part at all points; zero where the law does not use them.
-    fn geometric_stresses(&self, points: &[Deformation; POINTS], stressed: Stressed<'_>) -> [Matrix3; POINTS] {
+    fn geometric_stresses(
+        &self,
+        points: &[Deformation; POINTS],
+        stressed: Stressed<'_>,
+    ) -> [Matrix3; POINTS] {
         if self.law.model == SolidModel::NeoHookean {
             return [Matrix3::zeros(); POINTS];
         }

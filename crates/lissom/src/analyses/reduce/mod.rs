@@ -14,7 +14,7 @@ use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linearized::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_model::Document;
-use lissom_model::document::{Attachment, Component, NodeReference, ShellPlace};
+use lissom_model::document::{Attachment, Component, NodeReference, MeshPlace};
 use lissom_model::lower::Names;
 use serde::Deserialize;
 
@@ -257,7 +257,7 @@ fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     {
         let numbers: Vec<f64> = place.split(',').filter_map(|number| number.trim().parse().ok()).collect();
         let node = match numbers[..] {
-            [u, v] => shell.node_at(&ShellPlace::Fractions([u, v])),
+            [u, v] => shell.node_at(&MeshPlace::Fractions([u, v])),
             _ => None,
         };
         return match node {

@@ -1,0 +1,108 @@
+//! Elastic solids as they look.
+
+use lissom_mechanics::elements::solid::law::SolidModel;
+use lissom_mechanics::kinematics::NodeId;
+use lissom_motion::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::places::Places;
+use crate::document::Document;
+use crate::reading::solid_mesh::SolidMesh;
+
+/// Cosine of the angle [36°] between faces up to which their common edge is round.
+const ROUND: f64 = 0.81;
+
+/// An elastic solid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ElasticSolid {
+    /// Name.
+    pub name: String,
+    /// Its nodes.
+    pub nodes: Vec<NodeId>,
+    /// Position of each node in the stress-free state [m].
+    pub positions: Vec<[f64; 3]>,
+    /// Nodes of each tetrahedron among its nodes, in the order of Abaqus.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tetrahedra: Vec<[usize; 10]>,
+    /// Nodes of each hexahedron.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hexahedra: Vec<[usize; 20]>,
+    /// Its surface as it is drawn: corners of quadrilaterals among its nodes, counterclockwise seen from outside; triangles have the last
+    /// corner twice.
+    pub elements: Vec<[usize; 4]>,
+    /// Normal of the smooth surface at each corner, in the stress-free state.
+    pub directors: Vec<[[f64; 3]; 4]>,
+    /// Whether its law is neo-Hookean, otherwise of St. Venant and Kirchhoff.
+    pub is_neo_hookean: bool,
+    /// Shear modulus [Pa].
+    pub shear: f64,
+    /// Bulk modulus [Pa].
+    pub bulk: f64,
+    /// Volume in the stress-free state [m³].
+    pub volume: f64,
+    /// Mass [kg].
+    pub mass: f64,
+}
+
+/// Outer faces, divided at the middles of their sides.
+fn surface(mesh: &SolidMesh) -> Vec<[usize; 4]> {
+    let corner = |face: &[usize], i: usize| {
+        let corners = face.len() / 2;
+        let before = face[corners + (i + corners - 1) % corners];
+        [face[i], face[corners + i], before, before]
+    };
+    let triangles = mesh.triangles.iter().flat_map(|face| {
+        let corners = [0, 1, 2].map(|i| corner(face, i));
+        corners.into_iter().chain([[face[3], face[4], face[5], face[5]]])
+    });
+    let quadrilaterals = mesh.quadrilaterals.iter().flat_map(|face| {
+        let corners = [0, 1, 2, 3].map(|i| corner(face, i));
+        corners.into_iter().chain([[face[4], face[5], face[6], face[7]]])
+    });
+    triangles.chain(quadrilaterals).collect()
+}
+
+/// Normals at the corners: the mean of those of the faces around the node that belong to one round surface.
+fn directors(positions: &[Vector3], elements: &[[usize; 4]]) -> Vec<[[f64; 3]; 4]> {
+    let normal = |own: &[usize; 4]| {
+        let p = own.map(|node| positions[node]);
+        (p[2] - p[0]).cross(&(p[3] - p[1]))
+            + (p[1] - p[0]).cross(&(p[2] - p[0])) * f64::from(u8::from(own[2] == own[3]))
+    };
+    let normals: Vec<Vector3> =
+        elements.iter().map(|own| normal(own).try_normalize(0.0).unwrap_or_else(Vector3::z)).collect();
+    let mut around = vec![Vec::new(); positions.len()];
+    for (index, element) in elements.iter().enumerate() {
+        element.iter().for_each(|&node| around[node].push(index));
+    }
+    let at = |own: &Vector3, node: usize| {
+        let others = around[node].iter().map(|&other| normals[other]);
+        let sum: Vector3 = others.filter(|other| other.dot(own) > ROUND).sum();
+        sum.try_normalize(0.0).unwrap_or(*own).into()
+    };
+    elements.iter().zip(&normals).map(|(element, own)| element.map(|node| at(own, node))).collect()
+}
+
+pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<ElasticSolid> {
+    let drawn = |solid: &crate::document::ElasticSolid| {
+        let built = places.of.names.solids.get(&solid.name.value)?;
+        let elements = surface(&solid.mesh);
+        let tetrahedra = built.volume.tetrahedra.iter().map(|element| element.volume()).sum::<f64>();
+        let volume = tetrahedra + built.volume.hexahedra.iter().map(|element| element.volume()).sum::<f64>();
+        Some(ElasticSolid {
+            name: solid.name.value.clone(),
+            nodes: built.volume.nodes.clone(),
+            positions: solid.mesh.positions.iter().map(|position| (*position).into()).collect(),
+            tetrahedra: solid.mesh.tetrahedra.clone(),
+            hexahedra: solid.mesh.hexahedra.clone(),
+            directors: directors(&solid.mesh.positions, &elements),
+            elements,
+            is_neo_hookean: solid.law.model == SolidModel::NeoHookean,
+            shear: solid.law.shear,
+            bulk: solid.law.bulk,
+            volume,
+            mass: solid.density * volume,
+        })
+    };
+    document.elastic_solids.iter().filter_map(drawn).collect()
+}
