@@ -1,6 +1,7 @@
 // What parts can be coloured by.
 
 import { ofShellNodes, shellFields } from "./shell_fields.js";
+import { solidFields } from "./solid_fields.js";
 
 const names = ["axial force", "shear force 2", "shear force 3", "torsion", "bending moment 2", "bending moment 3"];
 
@@ -105,6 +106,7 @@ export const fields = (scene, kinematics) => ({
   displacement: ofNodes("displacement", "m", () => kinematics.distances),
   ...beamFields(scene, kinematics),
   ...shellFields(scene.shells ?? [], kinematics),
+  ...solidFields(scene.elastic_solids ?? [], kinematics),
 });
 
 /** Values below this are round-off: section forces beside the largest of the run, motions beside the size of the model. */

@@ -77,11 +77,11 @@ export class ModelView {
       const drawn = new BeamMesh(beam, kinematics, size, own);
       this.add("parts", drawn, drawn.mesh, own, { kind: "beam", part: beam });
     }
-    // Scenes of earlier versions have no shells.
-    for (const shell of scene.shells ?? []) {
+    // Scenes of earlier versions have no shells. Solids are drawn by their surface, as closed shells.
+    for (const part of [...(scene.shells ?? []), ...(scene.elastic_solids ?? [])]) {
       const own = next();
-      const drawn = new ShellMesh(shell, kinematics, size, own);
-      this.add("parts", drawn, drawn.mesh, own, { kind: "shell", part: shell });
+      const drawn = new ShellMesh(part, kinematics, size, own);
+      this.add("parts", drawn, drawn.mesh, own, { kind: "shell", part });
     }
     for (const body of scene.bodies) {
       const own = next();

@@ -24,7 +24,11 @@ const constants = (kind, part, drawn) => {
     add("EI₂, EI₃", `${spelled(part.stiffness[4], 4)}, ${spelled(part.stiffness[5], 4)} N m²`);
     if (drawn?.isThickened) add("drawn", "thicker than it is");
   }
-  if (kind === "shell") {
+  if (kind === "shell" && part.volume !== undefined) {
+    add("volume", `${spelled(part.volume, 5)} m³`);
+    add("elements", String((part.tetrahedra?.length ?? 0) + (part.hexahedra?.length ?? 0)));
+    add("nodes", String(part.nodes.length));
+  } else if (kind === "shell") {
     const [least, most] = [Math.min(...part.thickness), Math.max(...part.thickness)];
     add("area", `${spelled(part.area, 5)} m²`);
     add("thickness", most > least ? `${spelled(least, 4)} to ${spelled(most, 4)} m` : `${spelled(most, 5)} m`);

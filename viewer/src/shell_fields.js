@@ -160,7 +160,7 @@ export const shellFields = (shells, kinematics) => {
   const add = (name, unit, has, onShell, isSigned, roundOff) => {
     const those = shells.filter(has);
     if (those.length === 0) return;
-    found[name] = { title: name, unit, isSigned, alongBeam: () => null, onShell: (shell) => (has(shell) ? onShell(shell) : null), extremes: () => extremesOf(those, onShell), roundOff: () => Math.max(...those.map(roundOff)) };
+    found[name] = { title: name, unit, isSigned, alongBeam: () => null, onShell: (shell) => (those.includes(shell) ? onShell(shell) : null), extremes: () => extremesOf(those, onShell), roundOff: () => Math.max(...those.map(roundOff)) };
   };
   for (const quantity of QUANTITIES) {
     const has = quantity.isStress ? (shell) => shell.is_homogeneous : () => true;

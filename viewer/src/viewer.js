@@ -318,7 +318,7 @@ export class Viewer {
 
   /** Plane motion is looked at almost from the front, all other motion and shells at an angle. */
   firstLook() {
-    if (this.result.scene.shells?.length) return this.look("iso");
+    if (this.result.scene.shells?.length || this.result.scene.elastic_solids?.length) return this.look("iso");
     const { low, high, extent } = this.stage;
     const thickness = [0, 1, 2].map((k) => high.getComponent(k) - low.getComponent(k));
     const k = thickness.indexOf(Math.min(...thickness));
@@ -423,8 +423,8 @@ export class Viewer {
 
   /** What deformations can be enlarged against: the model as it is described, the start of each beam, or the motion of a part. */
   offerFrames() {
-    const { bodies, beams, shells = [] } = this.result.scene ?? { bodies: [], beams: [] };
-    const parts = [...bodies.map(({ name, node }) => [name, node]), ...[...beams, ...shells].map(({ name, nodes }) => [name, nodes[0]])];
+    const { bodies, beams, shells = [], elastic_solids: solids = [] } = this.result.scene ?? { bodies: [], beams: [] };
+    const parts = [...bodies.map(({ name, node }) => [name, node]), ...[...beams, ...shells, ...solids].map(({ name, nodes }) => [name, nodes[0]])];
     this.frames = new Map(this.modes.current ? [] : parts);
     const own = beams.length && !this.modes.current ? [["of each beam", "each beam's start"]] : [];
     const texts = [["", "as described"], ...own, ...[...this.frames.keys()].map((name) => [`part ${name}`, name])];

@@ -104,6 +104,8 @@ tables! {
     BodyId: Bodies = "bodies", "body";
     /// A shell.
     ShellId: Shells = "shells", "shell";
+    /// An elastic solid.
+    SolidId: Solids = "solids", "solid";
     /// A point mass.
     PointMassId: PointMasses = "point_masses", "point mass";
     /// A superelement.

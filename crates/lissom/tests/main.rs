@@ -15,6 +15,7 @@ mod schemes;
 mod sessions;
 mod shells;
 mod signals;
+mod solids;
 mod springs;
 mod statics;
 mod study;

@@ -93,6 +93,7 @@ impl Check {
             "point_masses": document.point_masses.len(),
             "beams": document.beams.len(),
             "shells": document.shells.len(),
+            "solids": document.elastic_solids.len(),
             "superelements": document.superelements.len(),
             "elements": document.beams.iter().map(|beam| beam.elements.value).sum::<usize>(),
             "nodes": layout.node_count() - 1,
@@ -171,12 +172,20 @@ fn parts(document: &Document, lowered: &Lowered) -> String {
             format!("{shells} of {}, ", count(elements, "quadrilateral", "quadrilaterals"))
         }
     };
+    let solids = match document.elastic_solids.len() {
+        0 => String::new(),
+        number => {
+            let elements: usize =
+                document.elastic_solids.iter().map(|solid| solid.mesh.element_count()).sum();
+            format!("{} of {}, ", count(number, "solid", "solids"), count(elements, "element", "elements"))
+        }
+    };
     let superelements = match document.superelements.len() {
         0 => String::new(),
         number => format!("{}, ", count(number, "superelement", "superelements")),
     };
     format!(
-        "{}, {}, {} of {}, {shells}{superelements}{}",
+        "{}, {}, {} of {}, {shells}{solids}{superelements}{}",
         count(document.bodies.len(), "body", "bodies"),
         count(document.point_masses.len(), "point mass", "point masses"),
         count(document.beams.len(), "beam", "beams"),

@@ -75,7 +75,7 @@ pub(super) struct Snapshot {
     #[arg(long, conflicts_with_all = ["initial", "mode"])]
     forces: bool,
 
-    /// Colour shells by a quantity, with a scale.
+    /// Colour shells and solids by a quantity, with a scale.
     #[arg(long, value_enum, conflicts_with_all = ["initial", "mode"])]
     colour: Option<Colour>,
 
@@ -113,7 +113,7 @@ enum From {
     Top,
 }
 
-/// Quantities by which shells are coloured, on the command line.
+/// Quantities by which shells and solids are coloured, on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Colour {
     /// Distance from the stress-free position.
@@ -124,8 +124,12 @@ enum Colour {
     MisesMiddle,
     /// Von Mises stress on the other side.
     MisesBottom,
-    /// Strain energy per area.
+    /// Strain energy per area of shells.
     Energy,
+    /// Von Mises stress of solids.
+    Mises,
+    /// Strain energy per volume of solids.
+    EnergyDensity,
 }
 
 impl Colour {
@@ -136,6 +140,8 @@ impl Colour {
             Self::MisesMiddle => Field::StressMiddle,
             Self::MisesBottom => Field::StressBottom,
             Self::Energy => Field::Energy,
+            Self::Mises => Field::Stress,
+            Self::EnergyDensity => Field::EnergyPerVolume,
         }
     }
 }
@@ -208,8 +214,7 @@ impl Snapshot {
         }
         let run = ResultFolder::recorded(folder).map_err(foreign)?;
         if self.colour.is_some_and(|colour| !colour.field().is_in(&run.scene)) {
-            let message =
-                "`--colour` applies to shells, its stresses to those of one layer: the model has none";
+            let message = "`--colour` applies to shells of one layer and to solids: the model has none with this quantity";
             return Err(Failure::request(message));
         }
         let forces =

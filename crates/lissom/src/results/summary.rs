@@ -96,12 +96,14 @@ pub fn of_model(model: &Model, document: &Document, lowered: &Lowered) -> Summar
     insert("bodies", json!(document.bodies.len() + document.point_masses.len()));
     insert("beams", json!(document.beams.len()));
     insert("shells", json!(document.shells.len()));
+    insert("solids", json!(document.elastic_solids.len()));
     insert("superelements", json!(document.superelements.len()));
     insert(
         "elements",
         json!(
             document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()
                 + document.shells.iter().map(|shell| shell.mesh.elements.len()).sum::<usize>()
+                + document.elastic_solids.iter().map(|solid| solid.mesh.element_count()).sum::<usize>()
         ),
     );
     insert("nodes", json!(layout.node_count() - 1));

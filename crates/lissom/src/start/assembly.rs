@@ -94,7 +94,7 @@ fn nodes_of<'a>(names: &'a Names, part: &str) -> &'a [NodeId] {
     let node = names.nodes.get(part).map(std::slice::from_ref);
     let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
     let nodes = nodes.or(names.superelements.get(part).map(Vec::as_slice));
-    nodes.or(names.shells.get(part).map(|shell| shell.surface.nodes.as_slice())).unwrap_or_default()
+    nodes.or(names.mesh(part).map(|own| own.nodes)).unwrap_or_default()
 }
 
 /// Nodes that are to stay where they are.
@@ -112,7 +112,7 @@ pub(super) fn request<'a>(
     Request {
         rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
             .chain(names.superelements.values().map(Vec::as_slice))
-            .chain(names.shells.values().map(|shell| shell.surface.nodes.as_slice()))
+            .chain(names.meshes().map(|(_, own)| own.nodes))
             .collect(),
         fixed: fixed.to_vec(),
         values: values.to_vec(),
@@ -136,6 +136,7 @@ pub(super) fn assembled(
         .chain(document.point_masses.iter().map(|mass| &mass.name.value))
         .chain(document.beams.iter().map(|beam| &beam.name.value))
         .chain(document.shells.iter().map(|shell| &shell.name.value))
+        .chain(document.elastic_solids.iter().map(|solid| &solid.name.value))
         .chain(document.superelements.iter().map(|element| &element.name.value));
     let size = before.nodes.iter().map(|node| node.frame.position.norm()).fold(0.0, f64::max);
     let moved = parts.filter_map(|part| {

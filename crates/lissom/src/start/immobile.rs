@@ -33,8 +33,10 @@ const PASSIVE: [&str; 11] = [
 /// those of the others.
 pub(super) fn immobile(document: &Document, system: &System, state: &State) -> Option<Warning> {
     let is_motion = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
-    let is_rigid =
-        document.beams.is_empty() && document.shells.is_empty() && document.superelements.is_empty();
+    let is_rigid = document.beams.is_empty()
+        && document.shells.is_empty()
+        && document.elastic_solids.is_empty()
+        && document.superelements.is_empty();
     let is_small = system.layout().size() <= MAX_UNKNOWNS && !document.joints.is_empty();
     if !is_motion || !system.drives().is_empty() || !system.latches().is_empty() {
         return None;
@@ -76,6 +78,7 @@ fn has_no_cause(document: &Document, state: &State) -> bool {
         && document.assembly.is_none()
         && document.beams.iter().all(|beam| beam.distributed.is_empty())
         && document.shells.iter().all(|shell| shell.loads.is_empty())
+        && document.elastic_solids.iter().all(|solid| solid.pressures.is_empty())
 }
 
 /// The joint whose axis is not parallel to those of at least two others, which are parallel.

@@ -14,7 +14,7 @@ use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linearized::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_model::Document;
-use lissom_model::document::{Attachment, Component, NodeReference, MeshPlace};
+use lissom_model::document::{Attachment, Component, MeshPlace, NodeReference};
 use lissom_model::lower::Names;
 use serde::Deserialize;
 
@@ -252,23 +252,19 @@ fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     if let Some(&node) = names.nodes.get(name) {
         return Ok(node);
     }
-    if let Some((shell, place)) = name.split_once('@')
-        && let Some(shell) = names.shells.get(shell)
+    if let Some((part, place)) = name.split_once('@')
+        && let Some(nodes) = names.mesh(part)
     {
-        let numbers: Vec<f64> = place.split(',').filter_map(|number| number.trim().parse().ok()).collect();
-        let node = match numbers[..] {
-            [u, v] => shell.node_at(&MeshPlace::Fractions([u, v])),
-            _ => None,
-        };
-        return match node {
+        let numbers = place.split(',').filter_map(|number| number.trim().parse().ok()).collect();
+        return match nodes.node_at(&MeshPlace::Fractions(numbers)) {
             Some(node) => Ok(node),
             None => question(format!("`{name}` is no node: write u and v of one, as \"panel@0.5,1\"")),
         };
     }
-    if let Some((shell, set)) = name.rsplit_once('.')
-        && let Some(shell) = names.shells.get(shell)
+    if let Some((part, set)) = name.rsplit_once('.')
+        && let Some(nodes) = names.mesh(part)
     {
-        return match shell.node_of_set(set) {
+        return match nodes.node_at(&MeshPlace::Set(set.to_owned())) {
             Some(node) => Ok(node),
             None => question(format!(
                 "`{name}` is not one node: write a set of one node, as `{{ near = [x, y, z] }}`"
@@ -356,6 +352,7 @@ impl Chosen {
     fn of(document: &Document, request: &ReduceRequest, names: &Names) -> Result<Self, ReduceError> {
         let all: Vec<&String> = (document.beams.iter().map(|beam| &beam.name.value))
             .chain(document.shells.iter().map(|shell| &shell.name.value))
+            .chain(document.elastic_solids.iter().map(|solid| &solid.name.value))
             .chain(document.bodies.iter().map(|body| &body.name.value))
             .chain(document.point_masses.iter().map(|mass| &mass.name.value))
             .chain(document.superelements.iter().map(|element| &element.name.value))
@@ -398,7 +395,7 @@ impl Chosen {
             NodeReference::Ground => false,
             NodeReference::Body(name) | NodeReference::PointMass(name) => self.parts.contains(name),
             NodeReference::Beam { beam, .. } => self.parts.contains(beam),
-            NodeReference::Shell { shell, .. } => self.parts.contains(shell),
+            NodeReference::Mesh { part, .. } => self.parts.contains(part),
             NodeReference::Interface { superelement, .. } => self.parts.contains(superelement),
         }
     }
@@ -407,8 +404,8 @@ impl Chosen {
         let found = match node {
             NodeReference::Ground => None,
             NodeReference::Body(name) | NodeReference::PointMass(name) => self.names.nodes.get(name).copied(),
-            NodeReference::Shell { shell, place } => {
-                self.names.shells.get(shell).and_then(|shell| shell.node_at(place))
+            NodeReference::Mesh { part, place } => {
+                self.names.mesh(part).and_then(|nodes| nodes.node_at(place))
             }
             NodeReference::Beam { beam, fraction } => {
                 self.names.lines.get(beam).and_then(|line| line.node_at(*fraction))
@@ -466,6 +463,7 @@ impl Chosen {
         let is_in = |name: &String| self.parts.contains(name);
         own.beams.retain(|beam| is_in(&beam.name.value));
         own.shells.retain(|shell| is_in(&shell.name.value));
+        own.elastic_solids.retain(|solid| is_in(&solid.name.value));
         own.bodies.retain(|body| is_in(&body.name.value));
         own.point_masses.retain(|mass| is_in(&mass.name.value));
         own.superelements.retain(|element| is_in(&element.name.value));

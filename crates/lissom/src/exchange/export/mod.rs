@@ -7,6 +7,7 @@ mod netcdf;
 mod npz;
 mod parquet;
 mod shell_cells;
+mod solid_cells;
 mod vtk;
 
 use lissom_core::diagnostics::Diagnose;

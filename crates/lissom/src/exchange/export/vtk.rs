@@ -1,11 +1,13 @@
 //! VTK, for ParaView: one `.vtu` file for every frame and a `.pvd` file that lists their times. Beams are swept
-//! sections with section forces at their points, shells their elements with forces, moments and stresses at the centres.
+//! sections with section forces at their points, shells their elements with forces, moments and stresses at the centres,
+//! solids their surfaces with stresses.
 
 use std::fmt::Write;
 
 use lissom_motion::{Motion as Pose, Vector3};
 
 use super::shell_cells::ShellCells;
+use super::solid_cells::SolidCells;
 use super::{ExportError, Format, Sink, chosen_frames, poses};
 use crate::motion::{Motion, RecordedRun};
 use crate::pictures::geometry::{Carrier, Geometry, Mesh, Piece, Role};
@@ -30,13 +32,14 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
         return Err(ExportError::Empty);
     }
     let geometry = Geometry::new(&run.scene, motion, false);
-    let shells = ShellCells::new(&run.scene);
+    let (shells, solids) = (ShellCells::new(&run.scene), SolidCells::new(&run.scene));
     let mut series = String::new();
     for (number, &frame) in frames.iter().enumerate() {
         let name = format!("motion-{number:04}.vtu");
         let poses = poses(motion, frame);
         let mut grid = Grid::of(&geometry, motion, &poses, frame);
         grid.of_cells = shells.arrays(&geometry, &grid.pieces, &poses);
+        grid.of_cells.extend(solids.arrays(&geometry, &grid.pieces, &poses));
         sink(&name, grid.text().as_bytes())?;
         // Writing to a string cannot fail.
         let _ = writeln!(series, "<DataSet timestep=\"{}\" file=\"{name}\"/>", motion.times()[frame]);
@@ -67,6 +70,7 @@ fn role_word(role: Role) -> &'static str {
     match role {
         Role::Beam => "beam",
         Role::Shell => "shell",
+        Role::Solid => "solid",
         Role::Body => "body",
         Role::PointMass => "point mass",
         Role::Joint => "joint",

@@ -135,6 +135,8 @@ fn ends(joint: &Component) -> [&NodeReference; 2] {
 fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     let beam = document.beams.first().map(|beam| format!("beam `{}` is flexible", beam.name.value));
     let shell = document.shells.first().map(|shell| format!("shell `{}` is flexible", shell.name.value));
+    let solid =
+        document.elastic_solids.first().map(|solid| format!("solid `{}` is flexible", solid.name.value));
     let element = document.superelements.first();
     let element = element.map(|element| format!("superelement `{}` is flexible", element.name.value));
     let mass = document.point_masses.first();
@@ -143,7 +145,7 @@ fn refuse_parts(document: &Document) -> Result<(), ImportError> {
         .assembly
         .as_ref()
         .map(|_| "[assembly] determines the positions of its parts: write these positions".to_owned());
-    match beam.or(shell).or(element).or(mass).or(assembled) {
+    match beam.or(shell).or(solid).or(element).or(mass).or(assembled) {
         Some(words) => Err(ImportError::new(format!(
             "the model has features that a description cannot express: {words}"
         ))),

@@ -5,6 +5,7 @@ mod mesh;
 mod model;
 mod normals;
 mod shell_elements;
+mod solid_elements;
 mod sweep;
 
 pub use mesh::{Mesh, turn_to};
@@ -12,4 +13,5 @@ pub(crate) use model::span;
 pub use model::{Carrier, Colour, Geometry, Piece, Role, poses_at};
 pub use normals::{Edge, Normals, normal};
 pub use shell_elements::{Layer, ShellElements, at_rest};
+pub use solid_elements::SolidElements;
 pub use sweep::Sweep;

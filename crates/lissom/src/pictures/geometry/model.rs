@@ -28,6 +28,8 @@ pub enum Role {
     Beam,
     /// A shell.
     Shell,
+    /// An elastic solid.
+    Solid,
     /// A rigid body.
     Body,
     /// A point mass.
@@ -43,7 +45,7 @@ pub enum Role {
 /// Colour of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
-    /// The part of this index: beams, shells, bodies and point masses are numbered consecutively.
+    /// The part of this index: beams, shells, solids, bodies and point masses are numbered consecutively.
     Part(usize),
     /// The tone of a symbol.
     Tone(Tone),
@@ -205,12 +207,14 @@ impl Geometry {
             let mesh = sweep.mesh(motion.reference());
             self.add(&beam.name, (Role::Beam, next()), mesh, Carrier::Sections(sweep));
         }
-        for shell in &scene.shells {
-            let points = shell.nodes.iter().map(|node| motion.reference()[*node].position).collect();
-            let faces =
-                shell.elements.iter().map(|corners| corners.map(|node| node as u32).to_vec()).collect();
-            let mesh = Mesh { points, faces, is_open: true };
-            self.add(&shell.name, (Role::Shell, next()), mesh, Carrier::Nodes(shell.nodes.clone()));
+        let shells = scene.shells.iter().map(|own| (Role::Shell, &own.name, &own.nodes, &own.elements));
+        let solids =
+            scene.elastic_solids.iter().map(|own| (Role::Solid, &own.name, &own.nodes, &own.elements));
+        for (role, name, nodes, elements) in shells.chain(solids) {
+            let points = nodes.iter().map(|node| motion.reference()[*node].position).collect();
+            let faces = elements.iter().map(|corners| corners.map(|node| node as u32).to_vec()).collect();
+            let mesh = Mesh { points, faces, is_open: role == Role::Shell };
+            self.add(name, (role, next()), mesh, Carrier::Nodes(nodes.clone()));
         }
         for body in &scene.bodies {
             let mesh = self.body(body, &attached(scene, body.node));

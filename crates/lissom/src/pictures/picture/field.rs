@@ -1,14 +1,14 @@
-//! A field on shells: its values and their colours.
+//! A field on shells and solids: its values and their colours.
 
-use lissom_core::kinematics::Kinematics;
+use lissom_core::kinematics::{Kinematics, NodeId};
 use lissom_model::output::Shade;
-use lissom_model::scene::{Scene, Shell};
+use lissom_model::scene::{ElasticSolid, Scene, Shell};
 use lissom_motion::{Motion as Pose, Vector3};
 
 use super::paint::between;
-use crate::pictures::geometry::{Layer, Piece, Role, ShellElements, at_rest};
+use crate::pictures::geometry::{Layer, Piece, Role, ShellElements, SolidElements, at_rest};
 
-/// A quantity by which shells are coloured.
+/// A quantity by which shells and solids are coloured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
     /// Distance from the position in the stress-free state [m].
@@ -19,8 +19,12 @@ pub enum Field {
     StressMiddle,
     /// Von Mises stress on the other side [Pa].
     StressBottom,
-    /// Strain energy per area [J/m²].
+    /// Strain energy per area of shells [J/m²].
     Energy,
+    /// Von Mises stress of solids [Pa].
+    Stress,
+    /// Strain energy per volume of solids [J/m³].
+    EnergyPerVolume,
 }
 
 impl Field {
@@ -32,11 +36,17 @@ impl Field {
             Self::StressMiddle => ("von Mises stress, middle", "Pa"),
             Self::StressBottom => ("von Mises stress, bottom", "Pa"),
             Self::Energy => ("strain energy per area", "J/m²"),
+            Self::Stress => ("von Mises stress", "Pa"),
+            Self::EnergyPerVolume => ("strain energy per volume", "J/m³"),
         }
     }
 
-    /// Whether it is known for a shell in a scene: stresses are those of one layer.
+    /// Whether it is known for a shell or solid in a scene: stresses of shells are those of one layer.
     pub fn is_in(self, scene: &Scene) -> bool {
+        let is_of_solids = matches!(self, Self::Stress | Self::EnergyPerVolume);
+        if is_of_solids || (self == Self::Displacement && scene.shells.is_empty()) {
+            return !scene.elastic_solids.is_empty();
+        }
         let is_stress = matches!(self, Self::StressTop | Self::StressMiddle | Self::StressBottom);
         scene.shells.iter().any(|shell| shell.is_homogeneous || !is_stress)
     }
@@ -66,41 +76,87 @@ pub(super) fn colour(share: f64) -> Shade {
     })
 }
 
-/// A field on the shells of a scene.
+/// A field on the shells and solids of a scene.
 pub(super) struct ShellField {
     pub(super) field: Field,
     shells: Vec<(Shell, ShellElements)>,
+    solids: Vec<(ElasticSolid, SolidElements)>,
     /// The largest value at the centres of elements at the instants of a picture.
     pub(super) most: f64,
+}
+
+/// A shell or solid at one instant.
+pub(super) enum Part<'f> {
+    Shell(&'f Shell, &'f ShellElements, Box<Kinematics>),
+    /// With the values at the nodes.
+    Solid(&'f ElasticSolid, Vec<f64>),
 }
 
 impl ShellField {
     /// With a scale for poses of the nodes at several instants.
     pub(super) fn new(field: Field, scene: &Scene, instants: &[Vec<Pose>]) -> Self {
         let shells = scene.shells.iter().map(|shell| (shell.clone(), ShellElements::new(shell))).collect();
-        let mut own = Self { field, shells, most: 0.0 };
+        let solids = scene.elastic_solids.iter().map(|own| (own.clone(), SolidElements::new(own))).collect();
+        let mut own = Self { field, shells, solids, most: 0.0 };
         for poses in instants {
             let at = at_rest(poses);
-            let of = |shell: usize| (0..own.shells[shell].1.count()).map(move |element| (shell, element));
-            let all = (0..own.shells.len()).flat_map(of);
-            own.most = all.filter_map(|place| own.value(place, (0.0, 0.0), &at)).fold(own.most, f64::max);
+            let shells = own.shells.iter().map(|shell| (own.shell(shell, &at), shell.1.count()));
+            let solids =
+                own.solids.iter().filter_map(|solid| Some((own.solid(solid, &at)?, solid.0.elements.len())));
+            let values = shells.chain(solids).flat_map(|(part, count)| {
+                (0..count).filter_map(|face| own.value(&part, face, (0.0, 0.0))).collect::<Vec<_>>()
+            });
+            own.most = values.fold(own.most, f64::max);
         }
         own
     }
 
-    /// The shell that is drawn by a piece.
-    pub(super) fn shell_of(&self, piece: &Piece) -> Option<usize> {
-        let is_drawn = |(shell, _): &(Shell, _)| piece.role == Role::Shell && shell.name == piece.name;
-        self.shells.iter().position(is_drawn)
+    fn shell<'f>(&self, (shell, elements): &'f (Shell, ShellElements), at: &Kinematics) -> Part<'f> {
+        Part::Shell(shell, elements, Box::new(at.clone()))
     }
 
-    /// The colour at r, s ∈ [-1, 1] of an element of a shell, if the field is known there.
-    pub(super) fn shade(&self, of: (usize, usize), place: (f64, f64), at: &Kinematics) -> Option<Shade> {
-        self.value(of, place, at).map(|value| colour(if self.most > 0.0 { value / self.most } else { 0.0 }))
+    fn solid<'f>(
+        &self,
+        (solid, elements): &'f (ElasticSolid, SolidElements),
+        at: &Kinematics,
+    ) -> Option<Part<'f>> {
+        let shift = |(node, position): (&NodeId, &[f64; 3])| {
+            (at.nodes[*node].frame.position - Vector3::from(*position)).norm()
+        };
+        let values = match self.field {
+            Field::Displacement => solid.nodes.iter().zip(&solid.positions).map(shift).collect(),
+            Field::Stress => elements.von_mises(at),
+            Field::EnergyPerVolume => elements.energy(at),
+            _ => return None,
+        };
+        Some(Part::Solid(solid, values))
     }
 
-    fn value(&self, (shell, element): (usize, usize), place: (f64, f64), at: &Kinematics) -> Option<f64> {
-        let (shell, elements) = &self.shells[shell];
+    /// The shell or solid that is drawn by a piece.
+    pub(super) fn part_of(&self, piece: &Piece, at: &Kinematics) -> Option<Part<'_>> {
+        match piece.role {
+            Role::Shell => {
+                Some(self.shell(self.shells.iter().find(|(shell, _)| shell.name == piece.name)?, at))
+            }
+            Role::Solid => self.solid(self.solids.iter().find(|(solid, _)| solid.name == piece.name)?, at),
+            _ => None,
+        }
+    }
+
+    /// The colour at r, s ∈ [-1, 1] of a face of a part, if the field is known there.
+    pub(super) fn shade(&self, part: &Part<'_>, face: usize, place: (f64, f64)) -> Option<Shade> {
+        let value = self.value(part, face, place)?;
+        Some(colour(if self.most > 0.0 { value / self.most } else { 0.0 }))
+    }
+
+    fn value(&self, part: &Part<'_>, element: usize, place: (f64, f64)) -> Option<f64> {
+        let (shell, elements, at) = match part {
+            Part::Solid(solid, values) => {
+                let corners = solid.elements[element].map(|node| Vector3::repeat(values[node]));
+                return Some(between(&corners, place).x);
+            }
+            Part::Shell(shell, elements, at) => (shell, elements, at),
+        };
         let stress = |layer| elements.von_mises(element, &elements.resultants(element, at, place), layer);
         match self.field {
             Field::Displacement => {
@@ -113,6 +169,7 @@ impl ShellField {
             Field::StressMiddle => stress(Layer::Middle),
             Field::StressBottom => stress(Layer::Bottom),
             Field::Energy => Some(elements.energy(element, at, place)),
+            Field::Stress | Field::EnergyPerVolume => None,
         }
     }
 }

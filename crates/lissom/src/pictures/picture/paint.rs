@@ -32,7 +32,9 @@ pub struct Paint {
 impl Paint {
     /// For poses of the nodes at several instants, with a field or the colours of parts.
     pub fn new(field: Option<Field>, scene: &Scene, instants: &[Vec<Pose>]) -> Self {
-        let count = instants.len() * scene.shells.iter().map(|shell| shell.elements.len()).sum::<usize>();
+        let count = instants.len()
+            * (scene.shells.iter().map(|shell| shell.elements.len()).sum::<usize>()
+                + scene.elastic_solids.iter().map(|solid| solid.elements.len()).sum::<usize>());
         let parts = (1..=MOST_PARTS).rev().find(|parts| parts * parts * count <= FACES).unwrap_or(1);
         Self { field: field.map(|field| ShellField::new(field, scene, instants)), parts }
     }
@@ -51,10 +53,10 @@ impl Paint {
     /// The colour of a piece at r, s ∈ [-1, 1] of a face.
     fn shade_at(&self, piece: &Piece, poses: &[Pose]) -> impl Fn(usize, (f64, f64)) -> Shade {
         let field =
-            self.field.as_ref().and_then(|field| Some((field, field.shell_of(piece)?, at_rest(poses))));
+            self.field.as_ref().and_then(|field| Some((field, field.part_of(piece, &at_rest(poses))?)));
         let plain = shade_of(piece.colour);
         move |face, place| {
-            let of_field = field.as_ref().and_then(|(own, shell, at)| own.shade((*shell, face), place, at));
+            let of_field = field.as_ref().and_then(|(own, part)| own.shade(part, face, place));
             of_field.unwrap_or(plain)
         }
     }

@@ -10,7 +10,7 @@ const BACK: f64 = 0.8;
 /// A direction of view by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
-    /// From the front and above for a model in a plane without shells, otherwise oblique.
+    /// From the front and above for a model in a plane without shells and solids, otherwise oblique.
     #[default]
     Chosen,
     /// From the front, the right and above.
@@ -51,9 +51,9 @@ impl Projection {
         Self::new(&away, &up)
     }
 
-    /// The direction of view and the upward direction, for a model in a plane without shells.
+    /// The direction of view and the upward direction, for a model in a plane without shells and solids.
     fn chosen(geometry: &Geometry, to_up: &Rotation) -> Option<(Vector3, Vector3)> {
-        if geometry.pieces.iter().any(|piece| piece.role == Role::Shell) {
+        if geometry.pieces.iter().any(|piece| matches!(piece.role, Role::Shell | Role::Solid)) {
             return None;
         }
         let extent = geometry.high - geometry.low;

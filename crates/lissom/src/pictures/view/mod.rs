@@ -148,7 +148,8 @@ impl Results {
     /// If the bytes are not a motion file.
     pub fn with_motion(mut self, scene: Value, motion: &[u8]) -> Result<Self, MotionError> {
         let motion = Motion::from_bytes(motion)?;
-        let has_shells = scene["shells"].as_array().is_some_and(|shells| !shells.is_empty());
+        let is_given = |part: &str| scene[part].as_array().is_some_and(|parts| !parts.is_empty());
+        let has_shells = is_given("shells") || is_given("elastic_solids");
         self.scene = scene;
         self.motion = Some(packed::Motion::of(&motion, has_shells, self.effort));
         Ok(self)

@@ -3,7 +3,7 @@
 //! A number of a motion is a multiple of its own quantum, stored as a second difference in as few bytes as necessary.
 //! Quanta are a fraction of the number's range during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations, 2⁻¹² for
 //! section forces; and never less than a fraction of the largest range of their kind. Motions of more than ten million
-//! numbers have quanta eight times as large, those of shells a 32nd.
+//! numbers have quanta eight times as large, those of shells and solids a 32nd.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -22,7 +22,7 @@ const FORCE: [f64; 2] = [1.0 / 4096.0, 1e-6];
 /// A motion with more numbers is a large one, and this is the factor of its quanta.
 const LARGE: usize = 10_000_000;
 const COARSER: f64 = 8.0;
-/// Factor of the quanta of positions and rotations where strains of shells are seen: they are differences of neighbouring nodes.
+/// Factor of the quanta of positions and rotations where strains of shells and solids are seen: they are differences of neighbouring nodes.
 const FINER: f64 = 1.0 / 32.0;
 
 /// A motion in the page's format.

@@ -29,8 +29,10 @@ fn node(end: &End, name: &str) -> NodeId {
         _ if name == "ground" => GROUND,
         (Some(beam), _) => names.lines[beam].nodes[0],
         (_, Some(beam)) => *names.lines[beam].nodes.last().expect("nodes"),
-        // The first node of the only kind of reference to shells in the scenes.
-        _ if name.ends_with("@0,0") => names.shells[name.trim_end_matches("@0,0")].surface.nodes[0],
+        // The first node of the only kinds of references to shells and solids in the scenes.
+        _ if name.contains("@0,0") => {
+            names.mesh(name.split_once('@').expect("a node").0).expect("a shell or solid").nodes[0]
+        }
         _ => names.nodes[name],
     }
 }

@@ -14,7 +14,7 @@ use lissom_model::document::OutputKind;
 use lissom_model::lower::registry::registry;
 use lissom_model::registry::KindEntry;
 use lissom_model::{EntryAxes, Library, ModelText, model_axes};
-use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use toml::{Table, Value};
 
 /// The cheapest first.
@@ -31,11 +31,12 @@ const STIFFNESS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 1\
 const RECOVERY: &str = "%%MatrixMarket matrix coordinate real general\n1 7 1\n1 7 3\n";
 
 /// Tables whose entries have the key `in`.
-const PLACED: [&str; 9] = [
+const PLACED: [&str; 10] = [
     "bodies",
     "point_masses",
     "beams",
     "shells",
+    "solids",
     "superelements",
     "joints",
     "springs",
@@ -228,6 +229,13 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
             let force = rotation.apply(&Vector3::from_column_slice(&values[3..6]));
             let centre = pose().transform_point(&Vector3::from_column_slice(&values[9..12]));
             [&values[..3], force.as_slice(), &values[6..9], centre.as_slice()].concat()
+        }
+        OutputKind::SolidStress => {
+            let [s11, s22, s33, s12, s13, s23] = std::array::from_fn(|k| values[k]);
+            let own = Matrix3::new(s11, s12, s13, s12, s22, s23, s13, s23, s33);
+            let all = rotation.matrix() * own * rotation.matrix().transpose();
+            let components = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|entry| all[entry]);
+            components.into_iter().chain([values[6], values[7]]).collect()
         }
         OutputKind::SectionForce
         | OutputKind::SectionMoment

@@ -1,0 +1,160 @@
+//! Equilibria of solids.
+
+use super::{BLOCK, CANTILEVER};
+use crate::support::runs::{last, run, run_without_warnings};
+
+/// St. Venant-Kirchhoff in tension: P = E λ (λ² - 1)/2, and across λ'² = 1 - ν (λ² - 1).
+#[test]
+fn a_uniform_stretch_is_exact() {
+    let record = run_without_warnings(BLOCK, &[]);
+    let stretch = 1.0 + last(&record, "end", "u1") / 2.0;
+    let square = stretch * stretch - 1.0;
+    assert!((0.5e6 * stretch * square / 1e5 - 1.0).abs() < 1e-9, "{stretch}");
+    let across = (1.0 - 0.3 * square).sqrt();
+    for component in ["u2", "u3"] {
+        assert!((last(&record, "end", component) - (across - 1.0)).abs() < 1e-10);
+    }
+    assert!((last(&record, "middle", "u1") - 1.5 * (stretch - 1.0)).abs() < 1e-10);
+    assert!((last(&record, "middle", "u2") - 0.5 * (across - 1.0)).abs() < 1e-10);
+    // Force per present area.
+    let stress = 1e5 / (across * across);
+    for component in ["s11", "mises", "principal"] {
+        assert!((last(&record, "stress", component) / stress - 1.0).abs() < 1e-9);
+    }
+    for component in ["s22", "s33", "s12", "s13", "s23"] {
+        assert!(last(&record, "stress", component).abs() < 1e-9 * stress);
+    }
+    assert!((last(&record, "wall", "f1") + 1e5).abs() < 1e-4);
+}
+
+/// Rubber in tension by a half: P = μ (λ - λ⁻²) where it does not change its volume.
+#[test]
+fn rubber_has_the_stress_of_its_law() {
+    let text = BLOCK
+        .replace("material = \"soft\"", "material = \"soft\"\nmodel = \"neo-hookean\"")
+        .replace("nu = 0.3", "nu = 0.4999");
+    let record = run(&text.replace("[1e5, 0, 0]", "[3e5, 0, 0]"), &[]);
+    let stretch = 1.0 + last(&record, "end", "u1") / 2.0;
+    let shear = 1e6 / (2.0 * 1.4999);
+    let law = shear * (stretch - 1.0 / (stretch * stretch));
+    assert!(stretch > 1.3 && (law / 3e5 - 1.0).abs() < 1e-3, "{stretch}, {law}");
+    let across = 1.0 + last(&record, "end", "u2");
+    assert!((stretch * across * across - 1.0).abs() < 1e-3, "{across}");
+}
+
+/// A pressure on three sides follows their areas: the block shrinks equally by a pressure K (1 - J) of the law of volumes.
+#[test]
+fn pressure_acts_on_the_present_area() {
+    let text = BLOCK
+        .replace("material = \"soft\"", "material = \"soft\"\nmodel = \"neo-hookean\"\npressure = { east = 1e5, north = 1e5, top = \"1e5*t\" }")
+        .replace("[loads.pull]\nkind = \"force\"\non = \"block.east\"\nvector = [1e5, 0, 0]\n", "");
+    let record = run(&text, &[]);
+    // p = K (1 - J), K = E/(3 (1 - 2 ν)).
+    let volume = 1.0 - 1e5 / (1e6 / 1.2);
+    let length = volume.cbrt();
+    assert!(
+        (last(&record, "end", "u1") - 2.0 * (length - 1.0)).abs() < 1e-8,
+        "{}",
+        last(&record, "end", "u1")
+    );
+    assert!((last(&record, "end", "u3") - (length - 1.0)).abs() < 1e-8);
+    assert!((last(&record, "stress", "s11") + 1e5).abs() < 1e-3);
+}
+
+/// F l³/(3 E I) + F l/(κ G A), with κ = 5/6 and ν = 0, and the stress 6 M/(b h²).
+#[test]
+fn a_cantilever_bends_like_a_beam() {
+    let record = run_without_warnings(CANTILEVER, &[]);
+    let exact = 1000.0 / (3.0 * 1e6 / 12.0) + 10.0 / (5.0 / 6.0 * 0.5e6);
+    let tip = last(&record, "tip", "u3");
+    assert!((tip / exact - 1.0).abs() < 1e-3, "{tip}, {exact}");
+    assert!((last(&record, "root", "f3") + 1.0).abs() < 1e-8);
+    assert!((last(&record, "root", "m2") - 10.0).abs() < 0.01, "{}", last(&record, "root", "m2"));
+    let stress = last(&record, "stress", "s11");
+    assert!((stress / -30.0 - 1.0).abs() < 2e-3, "{stress}");
+}
+
+/// Without locking in bending for rubber, in one layer of elements too: E I is that of ν = 1/2.
+#[test]
+fn rubber_bends_as_softly_as_its_modulus_says() {
+    let rubber = CANTILEVER
+        .replace("nu = 0\n", "nu = 0.4999\n")
+        .replace("material = \"soft\"", "material = \"soft\"\nmodel = \"neo-hookean\"");
+    let exact = 1000.0 / (3.0 * 1e6 / 12.0) + 10.0 / (5.0 / 6.0 * 1e6 / 3.0);
+    for (divisions, error) in [("[5, 1, 1]", 0.03), ("[10, 2, 2]", 0.02)] {
+        let tip = last(&run(&rubber, &[("solids.bar.divisions", divisions)]), "tip", "u3");
+        assert!((tip / exact - 1.0).abs() < error, "{divisions}: {tip}, {exact}");
+    }
+}
+
+/// The torsion constant of a square is 0.1406 a⁴; both ends are held plane, which is stiffer by about 2 %.
+#[test]
+fn a_square_bar_is_twisted_as_by_saint_venant() {
+    let text = CANTILEVER.replace(
+        "[loads.end]\nkind = \"force\"\non = \"bar.east\"\nvector = [0, 0, 1]",
+        "[bodies.end]\nmass = 1\ninertia = [1, 1, 1]\nposition = [10, 0.5, 0.5]\n[joints.end]\nkind = \"clamp\"\nbase = \"bar.east\"\ntip = \"end\"\n\
+         [outputs.end]\nkind = \"rotation\"\nof = \"end\"\n[loads.twist]\nkind = \"moment\"\non = \"end\"\nvector = [10, 0, 0]",
+    );
+    let angle = last(&run(&text, &[]), "end", "r1");
+    let exact = 10.0 * 10.0 / (0.1406 * 0.5e6);
+    assert!((angle / exact - 0.98).abs() < 0.02, "{angle}, {exact}");
+}
+
+/// A thin cantilever whose end rises by two thirds of its length, as computed with fine meshes of shells: -3.290 and 6.700 m.
+#[test]
+fn a_thin_cantilever_bends_far() {
+    let text = CANTILEVER
+        .replace("size = [10, 1, 1]", "size = [10, 1, 0.1]")
+        .replace("E = 1e6", "E = 1.2e6")
+        .replace("vector = [0, 0, 1]", "vector = [0, 0, 4]")
+        .replace("steps = 1", "steps = 4");
+    let record = run(&text, &[("solids.bar.divisions", "[16, 1, 1]")]);
+    let (along, up) = (last(&record, "tip", "u1"), last(&record, "tip", "u3"));
+    assert!((along / -3.290 - 1.0).abs() < 5e-3 && (up / 6.700 - 1.0).abs() < 3e-3, "{along}, {up}");
+}
+
+/// A thick tube under internal pressure in plane strain [Lamé 1852]: quarter of radii 1 and 2 m.
+#[test]
+fn a_thick_tube_widens_as_by_lame() {
+    let tube = |poisson: f64, model: &str, error: f64| {
+        let text = format!(
+            "lissom = 1\n[materials.m]\nE = 1e9\nnu = {poisson}\ndensity = 1000\n[solids.tube]\n\
+             volume = [\"(1 + u)*cos(pi/2*v)\", \"(1 + u)*sin(pi/2*v)\", \"0.5*w\"]\ndivisions = [4, 6, 1]\nmaterial = \"m\"\n{model}\n\
+             pressure = {{ west = 1e3 }}\n\
+             [joints.x]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube.north\"\naxis = \"x\"\n\
+             [joints.y]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube.south\"\naxis = \"y\"\n\
+             [joints.bottom]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube.bottom\"\naxis = \"z\"\n\
+             [joints.top]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube.top\"\naxis = \"z\"\n\
+             [outputs.inner]\nkind = \"displacement\"\nof = \"tube@0,0,0\"\n[outputs.outer]\nkind = \"displacement\"\nof = \"tube@1,0,0\"\n\
+             [outputs.stress]\nkind = \"solid_stress\"\nof = \"tube@0.5,0,0\"\n[analysis]\nkind = \"statics\"\nend = 1\nsteps = 1\n"
+        );
+        let record = run(&text, &[]);
+        // p a²(1 + ν)/(E (b² - a²)) ((1 - 2 ν) r + b²/r).
+        let exact = |r: f64| 1e-6 * (1.0 + poisson) / 3.0 * ((1.0 - 2.0 * poisson) * r + 4.0 / r);
+        for (place, r) in [("inner", 1.0), ("outer", 2.0)] {
+            let found = last(&record, place, "u1");
+            assert!((found / exact(r) - 1.0).abs() < error, "{poisson} {place}: {found:e}, {:e}", exact(r));
+        }
+        // p a²/(b² - a²) (1 ± b²/r²) at r = 1.5.
+        let (radial, hoop) = (last(&record, "stress", "s11"), last(&record, "stress", "s22"));
+        assert!((hoop - 1e3 / 3.0 * (1.0 + 4.0 / 2.25)).abs() < 20.0, "{hoop}");
+        assert!((radial - 1e3 / 3.0 * (1.0 - 4.0 / 2.25)).abs() < 20.0, "{radial}");
+    };
+    tube(0.3, "", 2e-3);
+    tube(0.4999, "model = \"neo-hookean\"", 3e-3);
+}
+
+/// Rotation of a body turns the nodes that are clamped to it.
+#[test]
+fn a_driven_body_carries_its_end() {
+    let text = CANTILEVER.replace("base = \"ground\"", "base = \"hub\"").replace(
+        "[loads.end]\nkind = \"force\"\non = \"bar.east\"\nvector = [0, 0, 1]",
+        "[bodies.hub]\nmass = 1\ninertia = [1, 1, 1]\n[joints.axle]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"hub\"\naxis = \"y\"\n\
+         [joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"axle\"\nrotation = \"pi/2*t\"",
+    );
+    let record = run(&text, &[("analysis.steps", "4")]);
+    // Without a load it stays straight and unstressed: from (10, 0.5, 0.5) to (0.5, 0.5, -10).
+    assert!((last(&record, "tip", "u1") + 9.5).abs() < 1e-7, "{}", last(&record, "tip", "u1"));
+    assert!((last(&record, "tip", "u3") + 10.5).abs() < 1e-7);
+    assert!(last(&record, "stress", "mises") < 1e-3);
+}
