@@ -110,7 +110,8 @@ fn forces_are_the_gradient_of_the_energy() {
         assert!(largest > 0.01);
         for column in 0..system.layout().size() {
             let slope =
-                difference(|step| vec![solid.energy(&here.displaced(system, column, step, false).at).strain])[0];
+                difference(|step| vec![solid.energy(&here.displaced(system, column, step, false).at).strain])
+                    [0];
             let force = forces[6 * (column / 3) + column % 3];
             assert!((force - slope).abs() < 1e-8 * largest, "{column}: {force}, {slope}");
         }
@@ -224,7 +225,8 @@ fn stresses_at_nodes_are_those_of_a_uniform_strain() {
     }
     let mut random = Random::new(13);
     for law in LAWS {
-        let stretch = nalgebra::Matrix3::identity() + 0.05 * nalgebra::Matrix3::from_fn(|_, _| random.number());
+        let stretch =
+            nalgebra::Matrix3::identity() + 0.05 * nalgebra::Matrix3::from_fn(|_, _| random.number());
         let strained = |state: &State| {
             let mut at = state.kinematics.clone();
             at.nodes.iter_mut().for_each(|node| node.frame.position = stretch * node.frame.position);

@@ -7,9 +7,9 @@ use super::NodeReference;
 use super::beam_contacts::beam_of;
 use super::contacts::{check_law, friction};
 use crate::format::keys::{Key, Shape, optional};
-use crate::reading::node_reference::ShellPlace;
+use crate::reading::mesh_nodes::ALL;
+use crate::reading::node_reference::MeshPlace;
 use crate::reading::reader::Reader;
-use crate::reading::shell_mesh::ALL;
 use crate::text::Value;
 use crate::text::report::Located;
 
@@ -109,8 +109,7 @@ pub(super) fn entry(
     let (TouchingShell::Nodes(stiffness) | TouchingShell::Nearest(stiffness)) = touching;
     let law = Compliance { stiffness, exponent: entry.exponent };
     check_law(reader, (Some(law), entry.friction.as_ref()))?;
-    let node =
-        NodeReference::Shell { shell: entry.shell.value.clone(), place: ShellPlace::Set(ALL.to_owned()) };
+    let node = NodeReference::Mesh { part: entry.shell.value.clone(), place: MeshPlace::Set(ALL.to_owned()) };
     let tip = Located::new(node, entry.shell.span);
     Some(([base, tip], entry))
 }

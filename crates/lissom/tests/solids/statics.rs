@@ -50,7 +50,7 @@ fn pressure_acts_on_the_present_area() {
         .replace("[loads.pull]\nkind = \"force\"\non = \"block.east\"\nvector = [1e5, 0, 0]\n", "");
     let record = run(&text, &[]);
     // p = K (1 - J), K = E/(3 (1 - 2 ν)).
-    let volume = 1.0 - 1e5 / (1e6 / 1.2);
+    let volume: f64 = 1.0 - 1e5 / (1e6 / 1.2);
     let length = volume.cbrt();
     assert!(
         (last(&record, "end", "u1") - 2.0 * (length - 1.0)).abs() < 1e-8,
