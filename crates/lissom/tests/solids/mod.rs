@@ -75,13 +75,13 @@ on = "bar.east"
 vector = [0, 0, 1]
 [outputs.tip]
 kind = "displacement"
-of = "bar@1,0.5,0.5"
+of = "bar@1,0,0.5"
 [outputs.root]
 kind = "reaction"
 of = "root"
 [outputs.stress]
 kind = "solid_stress"
-of = "bar@0.5,0.5,1"
+of = "bar@0.5,0,1"
 [analysis]
 kind = "statics"
 end = 1

@@ -8,7 +8,7 @@ from typing import Any
 from . import sections, parts, joints, springs, loads, contacts, feedback, motions, outputs, analyses
 from ._entry import Entry, ModelTree
 from .sections import Material, Section
-from .parts import Beam, Shell, Body, PointMass, Superelement, Part
+from .parts import Beam, Shell, Solid, Body, PointMass, Superelement, Part
 from .joints import Joint
 from .springs import Spring
 from .loads import Load, LocalLoad
@@ -30,6 +30,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "parts": parts.Part,
     "beams": parts.Beam,
     "shells": parts.Shell,
+    "solids": parts.Solid,
     "bodies": parts.Body,
     "point_masses": parts.PointMass,
     "superelements": parts.Superelement,
@@ -111,6 +112,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "shell_force": outputs.ShellForce,
         "shell_moment": outputs.ShellMoment,
         "shell_stress": outputs.ShellStress,
+        "solid_stress": outputs.SolidStress,
         "line": outputs.Line,
         "modal": outputs.Modal,
         "recovered": outputs.Recovered,
@@ -151,6 +153,7 @@ ORDER = (
     "parts",
     "beams",
     "shells",
+    "solids",
     "bodies",
     "point_masses",
     "superelements",
@@ -265,6 +268,16 @@ class ModelTables(ModelTree):
     @shells.setter
     def shells(self, of: dict[str, Shell]) -> None:
         self._set("shells", of)
+
+    @property
+    def solids(self) -> dict[str, Solid]:
+        """Elastic solids: volumes of finite elements."""
+        of: dict[str, Solid] = self._table("solids")
+        return of
+
+    @solids.setter
+    def solids(self, of: dict[str, Solid]) -> None:
+        self._set("solids", of)
 
     @property
     def bodies(self) -> dict[str, Body]:

@@ -19,7 +19,7 @@ class Initial(Entry):
         about: a point of the rigid motion; default the origin [m]; a position, or nothing.
         equilibrium: start from static equilibrium under the loads at the start; default `false`; `true` or `false`, or nothing.
         steady_rotation: start from the relative equilibrium in which the model rotates steadily with its velocities; default `false`; `true` or `false`, or nothing.
-        follow_drives: beams, shells and superelements without given velocities start with those of their drive, otherwise at rest; default `true`; `true` or `false`, or nothing.
+        follow_drives: beams, shells, solids and superelements without given velocities start with those of their drive, otherwise at rest; default `true`; `true` or `false`, or nothing.
         motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
     """
 
@@ -39,7 +39,7 @@ class PartMotion(Entry):
     """A rigid motion of some parts at the start.
 
     Args:
-        parts: bodies, point masses, beams, shells, superelements and entries of [parts] with this motion; a list of names of parts.
+        parts: bodies, point masses, beams, shells, solids, superelements and entries of [parts] with this motion; a list of names of parts.
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
         about: a point of the rigid motion; default the origin [m]; a position, or nothing.

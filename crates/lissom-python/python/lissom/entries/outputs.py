@@ -307,6 +307,25 @@ class ShellStress(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class SolidStress(Output):
+    """Stresses at a node of a solid, global axes, its von Mises stress and its largest principal stress.
+
+    Args:
+        of: the node of a solid, such as "block@0.5,1,0"; a node.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
+
+    _form: ClassVar[str] = "solid_stress"
+
+    of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
+    plot: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Line(Output):
     """Positions of all nodes of a beam, from its start to its end.
 

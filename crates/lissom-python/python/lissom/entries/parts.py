@@ -1,5 +1,5 @@
 # Made by `cargo xtask reference` of the program's own tables: do not edit.
-"""Beams, shells, rigid bodies, point masses, superelements and sub-assemblies."""
+"""Beams, shells, solids, rigid bodies, point masses, superelements and sub-assemblies."""
 
 from __future__ import annotations
 
@@ -90,6 +90,43 @@ class Shell(Entry):
     fold_angle: Number | None = None
     pressure: Number | None = None
     force_per_area: Vector | None = None
+    sets: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Solid(Entry):
+    """Elastic solids: volumes of finite elements.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        size: of a box along the axes: its lengths [m]; three numbers, or nothing.
+        origin: of a box: its corner with the lowest coordinates; default the origin [m]; a position, or nothing.
+        volume: instead of `size`: x, y and z over u, v and w from 0 to 1, which are right-handed [m]; three expressions of `u`, `v` and `w`, or nothing.
+        divisions: of `size` and `volume`: numbers of elements along u, v and w; three whole numbers, or nothing.
+        mesh: instead of `size`: a Gmsh (.msh) or Abaqus (.inp) file; path relative to this file; a text, or nothing.
+        group: of a mesh: the set of its elements to be used; default all solids; a text, or nothing.
+        scale: of a mesh: factor to metres; default 1; a number > 0, or nothing.
+        join: whether nodes at the same position are one, as along the seam of a ring; default `false`; `true` or `false`, or nothing.
+        material: the material; the name of an entry of `[materials]`.
+        model: law of elasticity: for small strains, or for rubber; default `"st-venant-kirchhoff"`; `"st-venant-kirchhoff"`, `"neo-hookean"`, or nothing.
+        pressure: force per area against the outward normal, which it follows: `{ SET = expression of t }` [Pa]; a table, or nothing.
+        sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
+    """
+
+    _table: ClassVar[str] = "solids"
+
+    in_: str | None = None
+    size: Vector | None = None
+    origin: Place | None = None
+    volume: Vector | None = None
+    divisions: Vector | None = None
+    mesh: str | None = None
+    group: str | None = None
+    scale: Number | None = None
+    join: bool | None = None
+    material: str
+    model: Literal["st-venant-kirchhoff", "neo-hookean"] | None = None
+    pressure: Table | None = None
     sets: Table | None = None
 
 
@@ -211,6 +248,7 @@ class Part(Entry):
         parts: Sub-assemblies, which may be placed and repeated; their entries are named `part.name`; entries as in `[parts]`, or nothing.
         beams: Flexible beams; entries as in `[beams]`, or nothing.
         shells: Flexible shells and plates: curved surfaces of finite elements; entries as in `[shells]`, or nothing.
+        solids: Elastic solids: volumes of finite elements; entries as in `[solids]`, or nothing.
         bodies: Rigid bodies; entries as in `[bodies]`, or nothing.
         point_masses: Point masses; entries as in `[point_masses]`, or nothing.
         superelements: Linear elastic parts, specified by reduced matrices; entries as in `[superelements]`, or nothing.
@@ -242,6 +280,7 @@ class Part(Entry):
     parts: Tables | None = None
     beams: Tables | None = None
     shells: Tables | None = None
+    solids: Tables | None = None
     bodies: Tables | None = None
     point_masses: Tables | None = None
     superelements: Tables | None = None

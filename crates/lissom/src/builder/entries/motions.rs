@@ -14,7 +14,7 @@ entry! {
     equilibrium: bool = "equilibrium";
     /// Start from the relative equilibrium in which the model rotates steadily with its velocities; default `false`.
     steady_rotation: bool = "steady_rotation";
-    /// Beams, shells and superelements without given velocities start with those of their drive, otherwise at rest; default `true`.
+    /// Beams, shells, solids and superelements without given velocities start with those of their drive, otherwise at rest; default `true`.
     follow_drives: bool = "follow_drives";
 }
 
@@ -24,7 +24,7 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `parts`: bodies, point masses, beams, shells, superelements and entries of \[parts\] with this motion
+    /// - `parts`: bodies, point masses, beams, shells, solids, superelements and entries of \[parts\] with this motion
     new(parts: Vec<Part> = "parts")
 }
 

@@ -159,6 +159,16 @@ entry! {
 }
 
 entry! {
+    /// Stresses at a node of a solid, global axes, its von Mises stress and its largest principal stress.
+    SolidStress => OutputId, "solid_stress";
+    ["kind" = "solid_stress"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node of a solid, such as "block@0.5,1,0"
+    new(of: Node = "of")
+}
+
+entry! {
     /// Positions of all nodes of a beam, from its start to its end.
     Line => OutputId, "line";
     ["kind" = "line"]
@@ -355,13 +365,13 @@ keys! {
 }
 
 keys! {
-    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
+    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, SolidStress, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
     /// Plot in which it is drawn together with other outputs of the same word; default its own.
     plot: String = "plot";
 }
 
 keys! {
-    [SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, Recovered, Reaction, Spring, SpringForce, Signal, ExpressionOutput]
+    [SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, SolidStress, Recovered, Reaction, Spring, SpringForce, Signal, ExpressionOutput]
     /// Exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component.
     woehler_exponent: f64 = "woehler_exponent";
     /// Number of cycles of the damage equivalent range; default one per second of the run.

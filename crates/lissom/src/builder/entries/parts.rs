@@ -1,8 +1,8 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
-//! Beams, shells, rigid bodies, point masses and superelements.
+//! Beams, shells, solids, rigid bodies, point masses and superelements.
 
 use super::words;
-use crate::builder::entry::entry;
+use crate::builder::entry::{entry, keys};
 use crate::builder::expression::{Expression, Function};
 use crate::builder::values::{Inertia, Mass, PositionOrNode, Solid};
 use crate::ids::{MaterialId, SectionId};
@@ -55,8 +55,6 @@ entry! {
     mesh: String = "mesh";
     /// Of a mesh: the set of its elements to be used; default all surfaces.
     group: String = "group";
-    /// Of a mesh: factor to metres; default 1.
-    scale: f64 = "scale";
     /// Whether nodes at the same position are one, as along the seam of a tube; default `false`.
     join: bool = "join";
     /// A number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements \[m\].
@@ -75,6 +73,32 @@ entry! {
     pressure: Expression = "pressure";
     /// In global axes, fixed in direction: three numbers or expressions of u, v and t \[Pa\].
     force_per_area: [Expression; 3] = "force_per_area";
+}
+
+entry! {
+    /// An elastic solid.
+    ElasticSolid => SolidId, "elastic_solid";
+    []
+    /// With what must be given.
+    ///
+    /// - `material`: the material
+    new(material: MaterialId = "material")
+    /// Of a box along the axes: its lengths \[m\].
+    size: [f64; 3] = "size";
+    /// Of a box: its corner with the lowest coordinates; default the origin \[m\].
+    origin: [f64; 3] = "origin";
+    /// Instead of `size`: x, y and z over u, v and w from 0 to 1, which are right-handed \[m\].
+    volume: [Expression; 3] = "volume";
+    /// Of `size` and `volume`: numbers of elements along u, v and w.
+    divisions: [f64; 3] = "divisions";
+    /// Instead of `size`: a Gmsh (.msh) or Abaqus (.inp) file; path relative to this file.
+    mesh: String = "mesh";
+    /// Of a mesh: the set of its elements to be used; default all solids.
+    group: String = "group";
+    /// Whether nodes at the same position are one, as along the seam of a ring; default `false`.
+    join: bool = "join";
+    /// Law of elasticity: for small strains, or for rubber; default `"st-venant-kirchhoff"`.
+    model: words::Model = "model";
 }
 
 entry! {
@@ -158,4 +182,10 @@ entry! {
     rotation: [f64; 3] = "rotation";
     /// Instead of `rotation`: first and second axis.
     axes: [[f64; 3]; 2] = "axes";
+}
+
+keys! {
+    [Shell, ElasticSolid]
+    /// Of a mesh: factor to metres; default 1.
+    scale: f64 = "scale";
 }

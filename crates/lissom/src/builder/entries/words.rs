@@ -85,6 +85,13 @@ words! {
 }
 
 words! {
+    /// One of `st-venant-kirchhoff`, `neo-hookean`.
+    Model;
+    StVenantKirchhoff = "st-venant-kirchhoff";
+    NeoHookean = "neo-hookean";
+}
+
+words! {
     /// One of `free`, `tangent`, `section`.
     Orientation;
     Free = "free";
