@@ -41,7 +41,7 @@ kind = "displacement"
 of = "block@1,1,1"
 [outputs.middle]
 kind = "displacement"
-of = "block@0.75,0.5,1"
+of = "block@0.75,0,1"
 [outputs.stress]
 kind = "solid_stress"
 of = "block@0.5,0,1"
