@@ -42,14 +42,14 @@ impl Deformation {
 
     /// J - 1 without cancellation: tr H + (tr²H - tr H²)/2 + det H.
     pub(super) fn dilatation(&self) -> f64 {
-        let h = &self.displacement;
-        let first = h.trace();
-        first + 0.5 * (first * first - (h * h).trace()) + h.determinant()
+        let slopes = &self.displacement;
+        let first = slopes.trace();
+        first + 0.5 * (first * first - (slopes * slopes).trace()) + slopes.determinant()
     }
 
     /// Green-Lagrange strain (H + Hᵀ + HᵀH)/2.
     pub(super) fn strain(&self) -> Matrix3 {
-        let h = &self.displacement;
-        0.5 * (h + h.transpose() + h.tr_mul(h))
+        let slopes = &self.displacement;
+        0.5 * (slopes + slopes.transpose() + slopes.tr_mul(slopes))
     }
 }

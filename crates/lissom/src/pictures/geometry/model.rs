@@ -213,7 +213,8 @@ impl Geometry {
         for (role, name, nodes, elements) in shells.chain(solids) {
             let points = nodes.iter().map(|node| motion.reference()[*node].position).collect();
             let faces = elements.iter().map(|corners| corners.map(|node| node as u32).to_vec()).collect();
-            let mesh = Mesh { points, faces, is_open: role == Role::Shell };
+            // Solids are painted as shells are: with fields, and divided where they are curved.
+            let mesh = Mesh { points, faces, is_open: true };
             self.add(name, (role, next()), mesh, Carrier::Nodes(nodes.clone()));
         }
         for body in &scene.bodies {
