@@ -89,7 +89,7 @@ impl InitialModel {
         } else {
             let distance = Written(distance);
             format!(
-                "is a point mass or a node of a solid {distance:.4} m away from the location, and has no rotation: \
+                "is a point mass or of a solid, {distance:.4} m away, and has no rotation: \
                  make it a body, or move the location to it"
             )
         };

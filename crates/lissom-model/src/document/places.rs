@@ -187,7 +187,10 @@ impl Context<'_> {
     /// A node or set of nodes of a shell or solid.
     fn mesh_node(&self, text: &str, span: Span, what: &str) -> Option<NodeReference> {
         let reference = |part: &str, place| Some(NodeReference::Mesh { part: part.to_owned(), place });
-        let (word, kind, count, all) = match self.mesh_table(text.split(['@', '.']).next().unwrap_or(text)) {
+        // Names in parts have points, too.
+        let part = [text.split_once('@'), text.rsplit_once('.')].into_iter().flatten().map(|(part, _)| part);
+        let table = part.chain([text]).find_map(|part| self.mesh_table(part));
+        let (word, kind, count, all) = match table {
             Some("solids") => ("solid", "volume", 3, "0.5,1,0\" at u, v and w"),
             _ => ("shell", "surface", 2, "0.5,1\" at u and v"),
         };

@@ -52,13 +52,23 @@ fn waves(seed: f64) -> Vector6 {
     Vector6::from_fn(|k, _| (seed + 1.7 * k as f64).sin())
 }
 
+/// Without rotation.
+fn translation_of(mut screw: Vector6) -> Vector6 {
+    screw.fixed_rows_mut::<3>(3).fill(0.0);
+    screw
+}
+
 /// The start of the model, with everything in motion.
-fn in_motion((Built { state, .. }, Observed { accumulated, .. }): &(Built, Observed)) -> State {
+fn in_motion((Built { system, state, .. }, Observed { accumulated, .. }): &(Built, Observed)) -> State {
     let mut state = state.clone();
     for (index, node) in state.kinematics.nodes.iter_mut().enumerate().skip(1) {
         let seed = 2.3 * index as f64;
-        let frame = node.frame * Motion::exponential(&(0.05 * waves(seed)));
-        *node = NodeMotion { frame, twist: waves(seed + 0.4), acceleration: waves(seed + 0.9) };
+        // Point masses and nodes of solids have no rotation.
+        let is_point =
+            system.layout().node_rows[index][3] == LOCKED && system.layout().node_rows[index][0] != LOCKED;
+        let own = |seed: f64| if is_point { translation_of(waves(seed)) } else { waves(seed) };
+        let frame = node.frame * Motion::exponential(&(0.05 * own(seed)));
+        *node = NodeMotion { frame, twist: own(seed + 0.4), acceleration: own(seed + 0.9) };
     }
     for (index, own) in state.kinematics.coordinates.iter_mut().enumerate() {
         let seed = 1.3 * index as f64;

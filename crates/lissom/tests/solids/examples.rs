@@ -22,7 +22,7 @@ fn a_hook_has_the_stresses_of_a_curved_bar() {
     is_near(last(&record, "shank", "f3"), 10e3, 1e-6);
 }
 
-/// Against the stiffness of a bonded cylinder.
+/// Against the stiffness of a bonded ring, a strip along its circumference [Gent and Lindley 1959].
 #[test]
 fn a_mount_isolates_a_machine() {
     let record = example("rubber-mount");
@@ -30,5 +30,5 @@ fn a_mount_isolates_a_machine() {
     let late = &motion[2 * motion.len() / 3..];
     let half =
         0.5 * (late.iter().copied().fold(f64::MIN, f64::max) - late.iter().copied().fold(f64::MAX, f64::min));
-    is_near(half, 65e-6, 0.25);
+    is_near(half, 78.7e-6, 0.02);
 }
