@@ -410,7 +410,9 @@ fn joined(reader: &Reader<'_, '_>, mesh: &mut SolidMesh) -> Option<()> {
     mesh.tetrahedra.iter_mut().flatten().for_each(|node| *node = numbers[*node]);
     mesh.hexahedra.iter_mut().flatten().for_each(|node| *node = numbers[*node]);
     for set in mesh.sets.values_mut() {
-        set.iter_mut().for_each(|node| *node = numbers[*node]);
+        for node in set.iter_mut() {
+            *node = numbers[*node];
+        }
         set.sort_unstable();
         set.dedup();
     }

@@ -147,8 +147,12 @@ impl NodeSets for SolidMesh {
         if has_elements {
             return sizes;
         }
-        triangles.iter().for_each(|own| add(own, &area_shares(&self.places_of(own))));
-        quadrilaterals.iter().for_each(|own| add(own, &area_shares(&self.places_of(own))));
+        for own in &triangles {
+            add(own, &area_shares(&self.places_of(own)));
+        }
+        for own in &quadrilaterals {
+            add(own, &area_shares(&self.places_of(own)));
+        }
         if !(triangles.is_empty() && quadrilaterals.is_empty()) {
             return sizes;
         }

@@ -73,7 +73,9 @@ fn directors(positions: &[Vector3], elements: &[[usize; 4]]) -> Vec<[[f64; 3]; 4
         elements.iter().map(|own| normal(own).try_normalize(0.0).unwrap_or_else(Vector3::z)).collect();
     let mut around = vec![Vec::new(); positions.len()];
     for (index, element) in elements.iter().enumerate() {
-        element.iter().for_each(|&node| around[node].push(index));
+        for &node in element {
+            around[node].push(index);
+        }
     }
     let at = |own: &Vector3, node: usize| {
         let others = around[node].iter().map(|&other| normals[other]);

@@ -16,7 +16,7 @@ use crate::registry::Function;
 /// Functions of a face at its nine points of quadrature.
 fn at_points<const NODES: usize>(
     functions: fn(Natural) -> Functions<NODES>,
-    points: [(Natural, f64); 9],
+    points: &[(Natural, f64); 9],
 ) -> [(Functions<NODES>, f64); 9] {
     points.map(|(place, weight)| (functions(place), weight))
 }
@@ -33,14 +33,14 @@ pub struct FacePressure<const NODES: usize> {
 impl FacePressure<6> {
     /// Pressure [Pa] on a triangle: corners counterclockwise seen from outside, then the middles of the sides.
     pub fn on_triangle(nodes: [NodeId; 6], pressure: Function) -> Self {
-        Self { nodes, points: Box::new(at_points(triangle, triangle_points())), pressure }
+        Self { nodes, points: Box::new(at_points(triangle, &triangle_points())), pressure }
     }
 }
 
 impl FacePressure<8> {
     /// Pressure [Pa] on a quadrilateral: corners counterclockwise seen from outside, then the middles of the sides.
     pub fn on_quadrilateral(nodes: [NodeId; 8], pressure: Function) -> Self {
-        Self { nodes, points: Box::new(at_points(quadrilateral, quadrilateral_points())), pressure }
+        Self { nodes, points: Box::new(at_points(quadrilateral, &quadrilateral_points())), pressure }
     }
 }
 
@@ -65,10 +65,10 @@ pub fn area_shares(positions: &[Vector3]) -> Vec<f64> {
         shares
     }
     if let Ok(positions) = <[Vector3; 6]>::try_from(positions) {
-        return of(positions, &at_points(triangle, triangle_points()));
+        return of(positions, &at_points(triangle, &triangle_points()));
     }
     <[Vector3; 8]>::try_from(positions)
-        .map(|positions| of(positions, &at_points(quadrilateral, quadrilateral_points())))
+        .map(|positions| of(positions, &at_points(quadrilateral, &quadrilateral_points())))
         .unwrap_or_default()
 }
 

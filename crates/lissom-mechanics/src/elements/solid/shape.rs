@@ -196,7 +196,7 @@ mod tests {
     fn check<const NODES: usize>(
         functions: fn(Natural) -> Functions<NODES>,
         node: fn(usize) -> Natural,
-        rules: [Vec<(Natural, f64)>; 2],
+        rules: &[Vec<(Natural, f64)>; 2],
         squares: usize,
     ) {
         for i in 0..NODES {
@@ -228,8 +228,8 @@ mod tests {
 
     #[test]
     fn functions_are_one_at_their_node_and_slopes_are_their_derivatives() {
-        check(tetrahedron, tetrahedron_node, [tetrahedron_points().to_vec(), tetrahedron_fine()], 1);
-        check(hexahedron, hexahedron_node, [hexahedron_points().to_vec(), hexahedron_fine()], 3);
+        check(tetrahedron, tetrahedron_node, &[tetrahedron_points().to_vec(), tetrahedron_fine()], 1);
+        check(hexahedron, hexahedron_node, &[hexahedron_points().to_vec(), hexahedron_fine()], 3);
     }
 
     #[test]

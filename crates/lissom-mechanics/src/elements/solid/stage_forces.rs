@@ -46,7 +46,9 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         let round_off = round_off::RIGID_MOTION * way / self.size();
         let largest = missed.iter().map(Matrix3::norm).fold(0.0, f64::max);
         let weight = above_round_off(largest, round_off);
-        missed.iter_mut().for_each(|missed| *missed *= weight);
+        for missed in &mut missed {
+            *missed *= weight;
+        }
         for (rates, share) in rates.iter_mut().zip(shares) {
             rates.iter_mut().zip(&missed).for_each(|(rate, missed)| *rate += share * missed);
         }
@@ -94,7 +96,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         let (centre, drift) = (mean(&positions), mean(&all));
         let arms = positions.map(|position| position - centre);
         let mut relative = all.map(|velocity| velocity - drift);
-        let largest = relative.iter().map(|own| own.norm()).fold(0.0, f64::max);
+        let largest = relative.iter().map(Vector3::norm).fold(0.0, f64::max);
         let turning: Vector3 = arms.iter().zip(&relative).map(|(arm, own)| arm.cross(own)).sum();
         let inertia: Matrix3 = arms
             .iter()

@@ -32,7 +32,9 @@ impl SolidCells {
             let known =
                 self.0.iter().find(|(solid, _)| piece.role == Role::Solid && solid.name == piece.name);
             let Some((solid, elements)) = known else {
-                values.iter_mut().for_each(|own| own.resize(own.len() + count, 0.0));
+                for own in &mut values {
+                    own.resize(own.len() + count, 0.0);
+                }
                 continue;
             };
             for (own, at_nodes) in values.iter_mut().zip([elements.von_mises(&at), elements.energy(&at)]) {

@@ -100,7 +100,7 @@ impl ShellField {
         let mut own = Self { field, shells, solids, most: 0.0 };
         for poses in instants {
             let at = at_rest(poses);
-            let shells = own.shells.iter().map(|shell| (own.shell(shell, &at), shell.1.count()));
+            let shells = own.shells.iter().map(|shell| (Self::shell(shell, &at), shell.1.count()));
             let solids =
                 own.solids.iter().filter_map(|solid| Some((own.solid(solid, &at)?, solid.0.elements.len())));
             let values = shells.chain(solids).flat_map(|(part, count)| {
@@ -111,7 +111,7 @@ impl ShellField {
         own
     }
 
-    fn shell<'f>(&self, (shell, elements): &'f (Shell, ShellElements), at: &Kinematics) -> Part<'f> {
+    fn shell<'s>((shell, elements): &'s (Shell, ShellElements), at: &Kinematics) -> Part<'s> {
         Part::Shell(shell, elements, Box::new(at.clone()))
     }
 
@@ -136,7 +136,7 @@ impl ShellField {
     pub(super) fn part_of(&self, piece: &Piece, at: &Kinematics) -> Option<Part<'_>> {
         match piece.role {
             Role::Shell => {
-                Some(self.shell(self.shells.iter().find(|(shell, _)| shell.name == piece.name)?, at))
+                Some(Self::shell(self.shells.iter().find(|(shell, _)| shell.name == piece.name)?, at))
             }
             Role::Solid => self.solid(self.solids.iter().find(|(solid, _)| solid.name == piece.name)?, at),
             _ => None,

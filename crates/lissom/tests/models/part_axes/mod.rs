@@ -51,7 +51,7 @@ const ROTATION: [f64; 3] = [0.8, -0.5, 1.1];
 const STEPS: usize = 3;
 
 /// Motions agree to this fraction of their size.
-const MOTIONS: f64 = 1e-12;
+const MOTIONS: f64 = 2e-12;
 /// Forces and accelerations, in which constraints and springs multiply the round-off of positions.
 const FORCES: f64 = 1e-9;
 
@@ -269,9 +269,12 @@ fn agree(scene: &str, plain: &End, placed: &End) {
     let pose = pose();
     let flat = |rotation: &Rotation| rotation.matrix().as_slice().to_vec();
     assert_eq!(plain.frames.len(), placed.frames.len(), "{scene}");
-    // A point mass has no axes: its node keeps global ones.
-    let without_axes: BTreeSet<usize> =
-        plain.point_masses.iter().map(|name| plain.lowered.names.nodes[name].index()).collect();
+    // Point masses and nodes of solids have no axes: they keep global ones.
+    let names = &plain.lowered.names;
+    let point_masses = plain.point_masses.iter().map(|name| names.nodes[name].index());
+    let of_solids =
+        names.solids.values().flat_map(|solid| solid.volume.nodes.iter().map(|node| node.index()));
+    let without_axes: BTreeSet<usize> = point_masses.chain(of_solids).collect();
     let size = 10.0;
     for node in 1..plain.frames.len() {
         let what = format!("{scene}, node {node}");
