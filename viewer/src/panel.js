@@ -10,6 +10,9 @@ export const element = (tag, properties = {}, ...children) => {
 
 const vector = (numbers) => numbers.map((x) => spelled(x, 5)).join("  ");
 
+/** What a part is called: solids are drawn as shells. */
+const wordOf = (kind, part) => (kind === "shell" && part?.volume !== undefined ? "solid" : kind);
+
 /** What does not change about a part. */
 const constants = (kind, part, drawn) => {
   const rows = [];
@@ -65,10 +68,10 @@ export class Panel {
   list(model) {
     this.model = model;
     const items = model
-      ? [...model.parts].map(([key, { name, kind, own }]) => {
+      ? [...model.parts].map(([key, { name, kind, part, own }]) => {
           const dot = element("i");
           dot.style.background = own ?? "var(--faint)";
-          const item = element("li", { tabIndex: 0 }, dot, element("b", { textContent: name }), element("span", { textContent: kind }));
+          const item = element("li", { tabIndex: 0 }, dot, element("b", { textContent: name }), element("span", { textContent: wordOf(kind, part) }));
           item.dataset.name = key;
           return item;
         })
@@ -110,7 +113,7 @@ export class Panel {
         });
       }
     }
-    const heading = element("h2", { textContent: known.name }, element("span", { textContent: kind }));
+    const heading = element("h2", { textContent: known.name }, element("span", { textContent: wordOf(kind, part) }));
     this.selection.replaceChildren(heading, ...(known.object ? [this.switches(name, kind)] : []), table);
     this.update();
   }

@@ -302,6 +302,22 @@ export const shells = ({ folder, view, open, comparePlaces, plays, draws, select
       assert.equal(await page.evaluate(() => (lissom.stage.fit(), lissom.stage.isPoorlyFramed())), false);
       assert.deepEqual(complaints(), []);
     },
+    "a solid is coloured by the stresses of the table, and is called a solid": async (browser) => {
+      const out = view(new URL("../../examples/solids/crane-hook.toml", import.meta.url).pathname);
+      const { page, complaints } = await open(browser, join(out, "view.html"));
+      const [heading, ...lines] = readFileSync(join(out, "history.csv"), "utf8").trim().split("\n");
+      const wanted = Number(lines.at(-1).split(",")[heading.split(",").indexOf("inside.mises")]);
+      await page.selectOption("#colour", "von Mises stress of solids");
+      const largest = await page.evaluate(() => {
+        lissom.player.seek(lissom.player.end);
+        lissom.move();
+        return Math.max(...lissom.model.field.onShell(lissom.result.scene.elastic_solids[0]));
+      });
+      // The node of the output is within the hook, and the greatest stress beside it.
+      assert.ok(largest >= 0.999 * wanted && largest < 1.05 * wanted, `${largest} Pa for ${wanted} Pa`);
+      assert.match(await page.locator("#parts").innerText(), /hook\s+solid/);
+      assert.deepEqual(complaints(), []);
+    },
     "the strain energy of a shell is that of the table, however its deformation is drawn": async (browser) => {
       const { page, complaints, out } = await shown(browser, "energy", flap(0.5, { divisions: [32, 12], thickness: 0.02 }));
       const [heading, ...lines] = readFileSync(join(out, "history.csv"), "utf8").trim().split("\n");
