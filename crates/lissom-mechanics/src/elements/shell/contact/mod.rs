@@ -1,7 +1,7 @@
 //! Contact of a ball with an element of a shell where they are nearest, on both sides, with friction that sticks.
 //!
-//! Legend: c centre of the ball, X and n point and normal of the surface, see [`patch`], h half the thickness, g = |c - X| - R gap with R
-//! radius of the ball plus h, m = (c - X)/|c - X|, N normal force, χ share of the element, see [`touch`]; Y = X ± h n point of contact,
+//! Legend: c centre of the ball, X and n point and normal of the surface, see `patch`, h half the thickness, g = |c - X| - R gap with R
+//! radius of the ball plus h, m = (c - X)/|c - X|, N normal force, χ share of the element, see `touch`; Y = X ± h n point of contact,
 //! u velocity of the shell relative to the ball there, s = u - m (m·u), z bristles, f_t friction on the shell as in
 //! [`Contact`](crate::elements::contact::Contact).
 //!
