@@ -395,7 +395,7 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 446;
+    const MAX_CONSTANTS: usize = 444;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 12] = [
@@ -407,7 +407,7 @@ mod tests {
         ("lissom-drawing", 1720),
         ("lissom-mesh", 3070),
         ("lissom-model", 36_010),
-        ("lissom", 26_800),
+        ("lissom", 26_810),
         ("lissom-cli", 4970),
         ("lissom-fmi", 660),
         ("lissom-python", 2180),

@@ -16,7 +16,7 @@ use lissom_motion::{Matrix6, Vector6};
 use nalgebra::{Matrix3x6, Matrix6x3, SMatrix};
 
 use super::beam::section::{Section, SectionMotion};
-use super::contact::{Contact, ContactForces, ContactFriction, Dissipation};
+use super::contact::{Contact, ContactForces, ContactFriction, Dissipation, STATES};
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::Pair;
@@ -34,8 +34,6 @@ const SECTION: NodeId = NodeId::new(1);
 /// Rows of the section, and of the states of the bristles, in the equations of that contact.
 const SECTION_ROWS: usize = 6;
 const BRISTLES: usize = 12;
-/// Number of states of the bristles.
-const STATES: usize = 3;
 
 /// A part and a section of a beam that may touch.
 #[derive(Clone, Debug)]

@@ -93,11 +93,14 @@ pub(super) struct Share {
     pub(super) by_bristles: Matrix3,
 }
 
+/// States of the bristles of a contact: components of a vector.
+pub(super) const STATES: usize = 3;
+
 impl ContactFriction {
     /// The same with bristles that are states of the contribution, by this name and a number.
     pub fn with_bristles(&self, name: &str, contribution: &mut Contribution) -> Self {
         let state = |k: usize| contribution.add_state(format!("{name} {k}"), 0.0, self.deflection);
-        Self { bristles: (1..=3).map(state).collect(), ..*self }
+        Self { bristles: (1..=STATES).map(state).collect(), ..*self }
     }
 
     pub(super) fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {

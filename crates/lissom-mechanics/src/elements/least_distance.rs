@@ -12,8 +12,9 @@ use crate::round_off;
 const MAX_ITERATIONS: usize = 60;
 /// Halvings of a step that does not approach.
 const MAX_HALVINGS: usize = 30;
-/// Curves are parallel where the determinant is below this fraction of the product of its diagonal.
-const PARALLEL: f64 = 1e-10;
+/// Curves are parallel, and their parameters not free, where the determinant of the second derivatives is below this fraction of the
+/// product of its diagonal.
+pub(super) const PARALLEL: f64 = 1e-10;
 
 /// D·D/2, its gradient, and its second derivatives.
 pub(super) struct Square {

@@ -1,6 +1,6 @@
 //! Elastic solids of a model file: their meshes, laws, sets of nodes and pressures.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
 use lissom_mechanics::elements::solid::law::{SolidLaw, SolidModel};
@@ -19,7 +19,7 @@ use crate::parts::context::Context;
 use crate::reading::mesh_nodes::{ALL, NodeSets};
 use crate::reading::node_reference::MeshPlace;
 use crate::reading::reader::Reader;
-use crate::reading::solid_mesh::{SolidMesh, raised};
+use crate::reading::solid_mesh::{SolidMesh, edge, raised};
 use crate::text::Node;
 use crate::text::report::{Located, Problem, Span};
 
@@ -128,6 +128,8 @@ pub(super) fn elastic_solids(context: &Context<'_>, materials: &[Material]) -> V
     each(context, "solids", |reader, name| {
         let (mesh, law) = (mesh_of(reader), law(reader, materials));
         let (mut mesh, (law, density)) = (mesh?, law?);
+        mesh.find_faces();
+        check_connection(reader, &mesh)?;
         joined(reader, &mut mesh)?;
         check(reader, &mesh)?;
         mesh.find_faces();
@@ -164,14 +166,17 @@ fn law(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<(SolidLaw, f64
     Some((SolidLaw::new(model, material.young, poisson), material.density))
 }
 
+/// Elements of a block: systems of a few million unknowns need more memory than there is.
+const MAX_ELEMENTS: usize = 1_000_000;
+
 fn mesh_of(reader: &Reader<'_, '_>) -> Option<SolidMesh> {
     let context = reader.context;
     let given: Vec<&str> = ["size", "volume", "mesh"].into_iter().filter(|key| reader.has(key)).collect();
     let help = "write `size` or `volume` with `divisions`, or a `mesh`";
     let unused: &[&str] = match given[..] {
         ["mesh"] => &["divisions", "origin"],
-        ["size"] => &["group"],
-        [_] => &["group", "origin"],
+        ["size"] => &["group", "scale"],
+        [_] => &["group", "origin", "scale"],
         [] => return context.fail(reader.name, format!("{} has no volume", reader.what), help),
         [_, second, ..] => {
             let span = reader.node(second).map_or(reader.name, |node| node.span);
@@ -190,6 +195,11 @@ fn mesh_of(reader: &Reader<'_, '_>) -> Option<SolidMesh> {
         return context.fail(reader.name, message, "add `divisions = [8, 2, 2]`: elements along u, v and w");
     };
     let divisions = divisions::<3>(reader, node, "[8, 2, 2]")?;
+    let count: usize = divisions.iter().product();
+    if count > MAX_ELEMENTS {
+        let message = format!("{} has {count} elements, more than {MAX_ELEMENTS}", reader.what);
+        return context.fail(node.span, message, "use fewer `divisions`");
+    }
     let position = if given == ["size"] { size(reader)? } else { volume(reader)? };
     block(reader, &position, divisions)
 }
@@ -302,6 +312,13 @@ fn mesh(reader: &Reader<'_, '_>) -> Option<SolidMesh> {
             return context.fail(node.span, format!("{what}: {error}"), help);
         }
     };
+    let materials: BTreeSet<_> = mesh.sections.iter().filter_map(|own| own.material.as_ref()).collect();
+    if materials.len() > 1 {
+        let message =
+            format!("{what} has sections of {} materials, and all elements get one", materials.len());
+        let help = "name the elements of one material by `group`, each in a solid of its own";
+        context.report(Problem::warning(node.span, message).help(help));
+    }
     if let Some((first, others)) = mesh.notes.split_first() {
         let more =
             if others.is_empty() { String::new() } else { format!("; {} more are left out", others.len()) };
@@ -328,11 +345,7 @@ fn edges_of_sets(mesh: &Mesh) -> FileEdges {
                 (0..count).map(|i| [i, (i + 1) % count]).collect()
             }
         };
-        edges
-            .into_iter()
-            .map(move |ends| ends.map(number))
-            .map(|[a, b]| [a.min(b), a.max(b)])
-            .collect::<Vec<_>>()
+        edges.into_iter().map(move |ends| ends.map(number)).map(edge).collect::<Vec<_>>()
     };
     let sets = mesh.element_sets.iter();
     sets.map(|(name, elements)| (name.clone(), elements.iter().flat_map(of).collect())).collect()
@@ -371,8 +384,10 @@ fn of_mesh(mesh: &Mesh, edges: &FileEdges, frame: &Motion, scale: f64) -> SolidM
             let set: BTreeSet<usize> = nodes.iter().copied().collect();
             // New nodes of edges of the set's elements, otherwise of outer faces with all their corners in the set.
             let of_elements = middles.iter().filter(|(ends, _)| {
-                let [a, b] = ends.map(|end| mesh.node_numbers.get(end).copied().unwrap_or_default());
-                edges.get(name).is_some_and(|edges| edges.contains(&[a.min(b), a.max(b)]))
+                let numbers = ends.map(|end| mesh.node_numbers.get(end).copied().unwrap_or_default());
+                // A set of nodes may have the name of a set of elements, of which it contains some nodes only.
+                ends.iter().all(|end| set.contains(end))
+                    && edges.get(name).is_some_and(|edges| edges.contains(&edge(numbers)))
             });
             let mut added: BTreeSet<usize> = of_elements.map(|(_, &middle)| middle).collect();
             let faces = solid.triangles.iter().map(<[usize; 6]>::as_slice);
@@ -419,6 +434,52 @@ fn joined(reader: &Reader<'_, '_>, mesh: &mut SolidMesh) -> Option<()> {
     mesh.positions = kept.iter().map(|&node| mesh.positions[node]).collect();
     if let Some(places) = &mut mesh.places {
         *places = kept.iter().map(|&node| places[node]).collect();
+    }
+    Some(())
+}
+
+/// Checks that elements meet in whole faces: their displacements agree there.
+fn check_connection(reader: &Reader<'_, '_>, mesh: &SolidMesh) -> Option<()> {
+    let fault = |node: usize, message: &str, help: &str| {
+        let at = mesh.positions[node];
+        let message = format!("{} has {message} at [{:.4}, {:.4}, {:.4}]", reader.what, at.x, at.y, at.z);
+        reader.context.fail::<()>(reader.name, message, help);
+    };
+    let mut known: HashSet<Vec<usize>> = HashSet::new();
+    let (mut corners, mut middles) = (BTreeSet::<usize>::new(), BTreeSet::<usize>::new());
+    let tetrahedra = mesh.tetrahedra.iter().map(|own| own.split_at(4));
+    for (own, sides) in tetrahedra.chain(mesh.hexahedra.iter().map(|own| own.split_at(8))) {
+        corners.extend(own);
+        middles.extend(sides);
+        let mut own = own.to_vec();
+        own.sort_unstable();
+        let first = own[0];
+        if !known.insert(own) {
+            fault(first, "two elements with the same nodes", "remove one of them from the mesh");
+            return None;
+        }
+    }
+    if let Some(&hanging) = corners.intersection(&middles).next() {
+        let message = "an element with a corner at the middle of an edge of another";
+        fault(hanging, message, "refine both alike: elements must share whole faces");
+        return None;
+    }
+    let sorted = |mut three: [usize; 3]| {
+        three.sort_unstable();
+        three
+    };
+    let triangles: HashSet<[usize; 3]> =
+        mesh.triangles.iter().map(|&[a, b, c, ..]| sorted([a, b, c])).collect();
+    let halved = mesh.quadrilaterals.iter().find(|&&[a, b, c, d, ..]| {
+        [[a, b, c], [b, c, d], [c, d, a], [d, a, b]]
+            .into_iter()
+            .any(|three| triangles.contains(&sorted(three)))
+    });
+    if let Some([corner, ..]) = halved {
+        let help =
+            "tetrahedra and hexahedra share no face: mesh with one of them, or join two solids by a body";
+        fault(*corner, "a face of a hexahedron on that of a tetrahedron", help);
+        return None;
     }
     Some(())
 }
@@ -475,4 +536,60 @@ fn pressures(reader: &Reader<'_, '_>, name: &str, mesh: &SolidMesh) -> Option<Ve
         Some(FacePressure { triangles, quadrilaterals, value, span: entry.span })
     };
     table.iter().map(|(set, entry)| read((set, &entry.node))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::lower::registry::registry;
+    use crate::{Document, Library, ModelText};
+
+    /// Two cubes along x.
+    const CUBES: &str = "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1\n\
+                         9, 2, 0, 0\n10, 2, 1, 0\n11, 2, 0, 1\n12, 2, 1, 1\n\
+                         *Element, type=C3D8, elset=A\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*Element, type=C3D8, elset=B\n2, 2, 9, 10, 3, 6, 11, 12, 7\n\
+                         *Nset, nset=A\n1, 4, 5, 8\n";
+
+    fn document(mesh: &str) -> Result<Document, String> {
+        let text = "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0.3\ndensity = 1000\n[solids.s]\nmesh = \"s.inp\"\nmaterial = \"m\"\n\
+                    [analysis]\nkind = \"dynamics\"\nend = 1\n";
+        let library = Library::of_texts([("s.inp".to_owned(), mesh.to_owned())]);
+        let read = ModelText::read_with(text, "model.toml", &[], Arc::new(library));
+        let document = read.and_then(|text| text.document(&registry(), &[]));
+        document.map_err(|report| report.render(false))
+    }
+
+    /// As Abaqus writes a face: its nodes, and the elements behind it, by one name.
+    #[test]
+    fn nodes_of_a_face_are_those_of_the_set_of_nodes() {
+        let document = document(CUBES).expect("a good model");
+        let mesh = &document.elastic_solids[0].mesh;
+        assert_eq!((mesh.sets["A"].len(), mesh.sets["B"].len()), (8, 20));
+        assert!(mesh.sets["A"].iter().all(|&node| mesh.positions[node].x == 0.0));
+    }
+
+    #[test]
+    fn elements_must_share_whole_faces() {
+        let with = |more: &str| document(&format!("{CUBES}{more}")).expect_err("no good mesh");
+        let twice = with("*Element, type=C3D8, elset=C\n3, 1, 2, 3, 4, 5, 6, 7, 8\n");
+        assert!(twice.contains("two elements with the same nodes"), "{twice}");
+        let tetrahedron = with("*Node\n13, 3, 0.5, 0.5\n*Element, type=C3D4, elset=C\n3, 9, 10, 11, 13\n");
+        assert!(tetrahedron.contains("a face of a hexahedron on that of a tetrahedron"), "{tetrahedron}");
+        // Of second order, the middle of whose edge is a corner of the cubes.
+        let hanging = with(
+            "*Node\n13, 0, 0, 3\n14, 0.5, 1, 2\n15, 0.5, 0.5, 2.5\n16, 0.25, 0.5, 1.5\n17, 0.25, 0.5, 2.5\n18, 0.5, 0.5, 1\n\
+             *Element, type=C3D10, elset=C\n3, 1, 2, 14, 13, 5, 6, 16, 15, 17, 18\n",
+        );
+        assert!(hanging.contains("a corner at the middle of an edge"), "{hanging}");
+    }
+
+    #[test]
+    fn several_materials_of_a_file_are_reported() {
+        let sections = "*Solid section, elset=A, material=X\n*Solid section, elset=B, material=Y\n\
+                        *Material, name=X\n*Elastic\n1e9, 0.3\n*Material, name=Y\n*Elastic\n2e9, 0.3\n";
+        let warnings = |text: &str| document(text).expect("a good model").warnings.render(false);
+        assert!(warnings(&format!("{CUBES}{sections}")).contains("sections of 2 materials"));
+        assert!(!warnings(CUBES).contains("materials"));
+    }
 }

@@ -263,6 +263,12 @@ fn mesh_of(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
             mesh(reader)
         }
         [key] => {
+            if let Some((unused, node)) =
+                ["group", "scale"].iter().find_map(|key| Some((key, reader.node(key)?)))
+            {
+                let message = format!("{} has `{unused}`, which is used with a `mesh` only", reader.what);
+                return context.fail(node.span, message, format!("remove `{unused}`"));
+            }
             let Some(node) = reader.node("divisions") else {
                 let message = format!("{} lacks `divisions`", reader.what);
                 return context.fail(
@@ -491,12 +497,14 @@ pub(super) fn coincident(positions: &[Vector3]) -> (Vec<usize>, Vec<usize>) {
     let size = positions.iter().fold(0.0_f64, |most, position| most.max(position.amax()));
     let near = SAME * size;
     let mut order: Vec<usize> = (0..positions.len()).collect();
-    order.sort_by(|&a, &b| positions[a].x.total_cmp(&positions[b].x));
+    // Along no axis of a regular mesh, where many nodes would have one place.
+    let along: Vec<f64> = positions.iter().map(|at| at.dot(&Vector3::new(0.571, 0.618, 0.539))).collect();
+    order.sort_by(|&a, &b| along[a].total_cmp(&along[b]));
     let mut first: Vec<usize> = (0..positions.len()).collect();
     for (k, &node) in order.iter().enumerate() {
         for &other in &order[k + 1..] {
             let apart = positions[other] - positions[node];
-            if apart.x > near {
+            if along[other] - along[node] > near {
                 break;
             }
             if apart.norm() <= near {

@@ -48,7 +48,7 @@ pub(super) fn add(
         };
         builder.add(contribution);
         problems.extend(add_pressures(document, solid, &volume, builder).err());
-        names.solids.insert(name.clone(), BuiltSolid { mesh: Arc::clone(&solid.mesh), volume });
+        names.meshes.solids.insert(name.clone(), BuiltSolid { mesh: Arc::clone(&solid.mesh), volume });
     }
 }
 

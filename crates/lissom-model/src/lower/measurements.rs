@@ -175,6 +175,12 @@ pub(super) fn bind(
         }
         let spring = names.springs.get(&name.value);
         let of = of(output);
+        if of == Of::Power && names.powers.get(&name.value).is_some_and(|own| own.len() > 1) {
+            let message =
+                format!("{reader} cannot be read: `{owner}` is of a load that is spread over a set of nodes");
+            problems.push(Problem::error(place, message).label("here").help("add `sample` to the signal"));
+            continue;
+        }
         let element = match of {
             Of::Spring => spring.map(|&(element, elongation)| (element, components_of(elongation))),
             Of::Power => names.powers.get(&name.value).and_then(|own| match own[..] {

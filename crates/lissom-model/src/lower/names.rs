@@ -12,10 +12,8 @@ use super::signal_references::SignalReferences;
 use crate::document::Component;
 use crate::outputs::contact_point::PointsOfContacts;
 use crate::outputs::local_load_points::LocalLoadPoints;
-use crate::outputs::shell_nodes::BuiltShell;
-use crate::outputs::solid_nodes::BuiltSolid;
+use crate::outputs::meshes::BuiltMeshes;
 use crate::outputs::{Deformed, Resolver};
-use crate::reading::mesh_nodes::BuiltNodes;
 use crate::reading::node_reference::{NodeReference, interface_name};
 use crate::text::report::{Located, Problem};
 
@@ -30,10 +28,8 @@ pub struct Names {
     pub deformations: BTreeMap<String, Deformed>,
     /// Nodes and elements of each beam.
     pub lines: BTreeMap<String, BeamLine>,
-    /// Nodes and elements of each shell.
-    pub shells: BTreeMap<String, BuiltShell>,
-    /// Nodes and elements of each elastic solid.
-    pub solids: BTreeMap<String, BuiltSolid>,
+    /// Shells and solids.
+    pub meshes: BuiltMeshes,
     /// Joints in the order of the file.
     pub joints: Vec<String>,
     /// Inputs in the order of the file.
@@ -74,7 +70,9 @@ impl Names {
                 let name = interface_name(superelement, interface);
                 self.nodes.get(&name).copied().ok_or_else(|| unknown(&name))
             }
-            NodeReference::Mesh { part, .. } => self.mesh(part).ok_or_else(|| unknown(part))?.one(reference),
+            NodeReference::Mesh { part, .. } => {
+                self.meshes.nodes_of(part).ok_or_else(|| unknown(part))?.one(reference)
+            }
             NodeReference::Beam { beam, fraction } => {
                 let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
                 line.node_at(*fraction).ok_or_else(|| no_node(reference, beam, line, *fraction))
@@ -84,24 +82,12 @@ impl Names {
 }
 
 impl Names {
-    /// The nodes of a shell or solid.
-    pub fn mesh(&self, name: &str) -> Option<BuiltNodes<'_>> {
-        let of_solid = || self.solids.get(name).map(BuiltSolid::nodes);
-        self.shells.get(name).map(BuiltShell::nodes).or_else(of_solid)
-    }
-
-    /// Those of all shells and solids, with their names.
-    pub fn meshes(&self) -> impl Iterator<Item = (&str, BuiltNodes<'_>)> {
-        let shells = self.shells.iter().map(|(name, own)| (name.as_str(), own.nodes()));
-        shells.chain(self.solids.iter().map(|(name, own)| (name.as_str(), own.nodes())))
-    }
-
     /// All nodes a reference means: several for a set of a shell or solid, otherwise one. With their shares of what is spread over them.
     pub(super) fn nodes(&self, reference: &Located<NodeReference>) -> Result<Vec<(NodeId, f64)>, Problem> {
         let NodeReference::Mesh { part, .. } = &reference.value else {
             return Ok(vec![(self.node(reference)?, 1.0)]);
         };
-        let Some(built) = self.mesh(part) else { return Ok(vec![(self.node(reference)?, 1.0)]) };
+        let Some(built) = self.meshes.nodes_of(part) else { return Ok(vec![(self.node(reference)?, 1.0)]) };
         let indices = built.indices(reference)?;
         let shares = built.mesh.shares(&indices);
         Ok(indices.iter().zip(shares).map(|(&index, share)| (built.nodes[index], share)).collect())
@@ -132,8 +118,7 @@ impl Names {
         Resolver {
             nodes: &self.nodes,
             lines: &self.lines,
-            shells: &self.shells,
-            solids: &self.solids,
+            meshes: &self.meshes,
             deformations: &self.deformations,
             coordinates: &self.coordinates,
             springs: &self.springs,

@@ -85,7 +85,7 @@ pub(super) fn velocities(document: &Document, names: &Names, system: &System, at
             set(node, &|frame| initial_motion(document.initial_motion(name), frame));
         }
     }
-    for (name, own) in names.meshes() {
+    for (name, own) in names.meshes.all() {
         for &node in own.nodes {
             set(node, &|frame| initial_motion(document.initial_motion(name), frame));
         }

@@ -42,7 +42,7 @@ pub(super) fn add(
     builder: &mut Builder,
 ) -> Result<Vec<ContactPoint>, Problem> {
     let name = &law.shell.value;
-    let found = document.shell(name).zip(names.shells.get(name));
+    let found = document.shell(name).zip(names.meshes.shells.get(name));
     let (shell, built) = found.ok_or_else(|| {
         let message = format!("contact `{}`: there is no shell `{name}`", entry.name.value);
         Problem::error(law.shell.span, message)

@@ -59,7 +59,7 @@ pub(super) fn add(
             problems.extend(add_load(document, (shell, load), &surface, builder).err());
         }
         let built = BuiltShell { mesh: Arc::clone(&shell.mesh), surface, plies, offset: shell.offset };
-        names.shells.insert(name.clone(), built);
+        names.meshes.shells.insert(name.clone(), built);
     }
 }
 

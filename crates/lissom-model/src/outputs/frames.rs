@@ -208,7 +208,9 @@ fn node_of_part(node: &Located<NodeReference>, names: &Resolver<'_>) -> Result<O
         NodeReference::Interface { superelement, interface } => {
             known(&interface_name(superelement, interface))?
         }
-        NodeReference::Mesh { part, .. } => names.mesh(part).ok_or_else(|| unknown(node, part))?.one(node)?,
+        NodeReference::Mesh { part, .. } => {
+            names.meshes.nodes_of(part).ok_or_else(|| unknown(node, part))?.one(node)?
+        }
         NodeReference::Beam { .. } => return Ok(None),
     }))
 }

@@ -21,6 +21,7 @@ pub(crate) mod line;
 pub(crate) mod local_load;
 pub(crate) mod local_load_points;
 mod location;
+pub(crate) mod meshes;
 pub(crate) mod modal;
 pub(crate) mod momentum;
 pub(crate) mod power;
@@ -59,9 +60,7 @@ use crate::outputs::channels::Channel;
 use crate::outputs::contact_point::PointsOfContacts;
 use crate::outputs::entry::Output;
 use crate::outputs::local_load_points::LocalLoadPoints;
-use crate::outputs::shell_nodes::BuiltShell;
-use crate::outputs::solid_nodes::BuiltSolid;
-use crate::reading::mesh_nodes::BuiltNodes;
+use crate::outputs::meshes::BuiltMeshes;
 use crate::text::report::Problem;
 
 use touched::Touched;
@@ -174,8 +173,7 @@ pub struct Deformed {
 pub(crate) struct Resolver<'a> {
     pub(crate) nodes: &'a BTreeMap<String, NodeId>,
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
-    pub(crate) shells: &'a BTreeMap<String, BuiltShell>,
-    pub(crate) solids: &'a BTreeMap<String, BuiltSolid>,
+    pub(crate) meshes: &'a BuiltMeshes,
     pub(crate) deformations: &'a BTreeMap<String, Deformed>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
@@ -187,14 +185,6 @@ pub(crate) struct Resolver<'a> {
     pub(crate) local_loads: &'a BTreeMap<String, LocalLoadPoints>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
-}
-
-impl Resolver<'_> {
-    /// The nodes of a shell or solid.
-    pub(crate) fn mesh(&self, name: &str) -> Option<BuiltNodes<'_>> {
-        let of_solid = || self.solids.get(name).map(BuiltSolid::nodes);
-        self.shells.get(name).map(BuiltShell::nodes).or_else(of_solid)
-    }
 }
 
 /// What outputs refer to: names, and frames as far as they are known before the system is built.

@@ -85,7 +85,7 @@ struct OfShell {
 fn of(output: &Output, subjects: &Subjects<'_>, what: What) -> Found {
     let (node, _) = node_of(output)?;
     let found = match &node.value {
-        NodeReference::Mesh { part, .. } => subjects.names.shells.get(part),
+        NodeReference::Mesh { part, .. } => subjects.names.meshes.shells.get(part),
         _ => None,
     };
     let Some(shell) = found else {
@@ -136,24 +136,30 @@ impl OutputQuantity for OfShell {
 
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
         let strains = |corner: &Corner| corner.element.strains_at_corner(at.motion(), corner.at);
-        let mut resultants = [0.0; 8];
-        let mut stresses = [[0.0; 3]; 3];
-        for corner in &self.corners {
-            let strains = strains(corner);
-            let law = &corner.element.law().stiffness;
-            for (k, resultant) in resultants.iter_mut().enumerate() {
-                *resultant += corner.share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
+        let resultants = || {
+            let mut sums = [0.0; 8];
+            for corner in &self.corners {
+                let (strains, law) = (strains(corner), &corner.element.law().stiffness);
+                for (k, sum) in sums.iter_mut().enumerate() {
+                    *sum += corner.share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
+                }
             }
-            let own = corner.stresses(&strains);
-            for (sum, stress) in stresses.iter_mut().flatten().zip(own.iter().flatten()) {
-                *sum += corner.share * stress;
-            }
-        }
-        let [n11, n22, n12, m11, m22, m12, q13, q23] = resultants;
+            sums
+        };
         match self.what {
-            What::Force => out.extend([n11, n22, n12, q13, q23]),
-            What::Moment => out.extend([m11, m22, m12]),
+            What::Force => {
+                let [n11, n22, n12, .., q13, q23] = resultants();
+                out.extend([n11, n22, n12, q13, q23]);
+            }
+            What::Moment => out.extend_from_slice(&resultants()[3..6]),
             What::Stress => {
+                let mut stresses = [[0.0; 3]; 3];
+                for corner in &self.corners {
+                    let own = corner.stresses(&strains(corner));
+                    for (sum, stress) in stresses.iter_mut().flatten().zip(own.iter().flatten()) {
+                        *sum += corner.share * stress;
+                    }
+                }
                 let [top, _, bottom] = stresses;
                 out.extend(top.into_iter().chain(bottom));
                 out.extend(stresses.map(von_mises));

@@ -47,7 +47,7 @@ struct OfSolid(Vec<(Corner, usize, f64)>);
 fn of(output: &Output, _: &System, subjects: &Subjects<'_>) -> Found {
     let (node, _) = node_of(output)?;
     let found = match &node.value {
-        NodeReference::Mesh { part, .. } => subjects.names.solids.get(part),
+        NodeReference::Mesh { part, .. } => subjects.names.meshes.solids.get(part),
         _ => None,
     };
     let Some(solid) = found else {

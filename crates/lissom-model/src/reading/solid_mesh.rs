@@ -34,7 +34,7 @@ pub struct SolidMesh {
 pub(crate) type Middles = HashMap<[usize; 2], usize>;
 
 /// An edge, whichever its direction.
-pub(crate) fn edge([a, b]: [usize; 2]) -> [usize; 2] {
+pub(crate) fn edge<T: Ord + Copy>([a, b]: [T; 2]) -> [T; 2] {
     [a.min(b), a.max(b)]
 }
 

@@ -87,7 +87,7 @@ fn directors(positions: &[Vector3], elements: &[[usize; 4]]) -> Vec<[[f64; 3]; 4
 
 pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<ElasticSolid> {
     let drawn = |solid: &crate::document::ElasticSolid| {
-        let built = places.of.names.solids.get(&solid.name.value)?;
+        let built = places.of.names.meshes.solids.get(&solid.name.value)?;
         let elements = surface(&solid.mesh);
         let tetrahedra = built.volume.tetrahedra.iter().map(|element| element.volume()).sum::<f64>();
         let volume = tetrahedra + built.volume.hexahedra.iter().map(|element| element.volume()).sum::<f64>();

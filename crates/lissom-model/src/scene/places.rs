@@ -63,7 +63,7 @@ impl Places<'_> {
             NodeReference::Interface { superelement, interface } => {
                 names.nodes.get(&interface_name(superelement, interface)).copied()
             }
-            NodeReference::Mesh { part, place } => names.mesh(part)?.middle(place),
+            NodeReference::Mesh { part, place } => names.meshes.nodes_of(part)?.middle(place),
             NodeReference::Beam { beam, fraction } => names.lines.get(beam)?.node_at(*fraction),
         }
     }

@@ -50,7 +50,7 @@ fn once<T: PartialEq>(mut values: Vec<T>) -> Vec<T> {
 
 pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
     let drawn = |shell: &crate::document::Shell| {
-        let built = places.of.names.shells.get(&shell.name.value)?;
+        let built = places.of.names.meshes.shells.get(&shell.name.value)?;
         let count = shell.mesh.elements.len();
         let elements = &built.surface.elements;
         let nodes = &built.surface.nodes;

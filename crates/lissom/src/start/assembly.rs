@@ -94,7 +94,7 @@ fn nodes_of<'a>(names: &'a Names, part: &str) -> &'a [NodeId] {
     let node = names.nodes.get(part).map(std::slice::from_ref);
     let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
     let nodes = nodes.or(names.superelements.get(part).map(Vec::as_slice));
-    nodes.or(names.mesh(part).map(|own| own.nodes)).unwrap_or_default()
+    nodes.or(names.meshes.nodes_of(part).map(|own| own.nodes)).unwrap_or_default()
 }
 
 /// Nodes that are to stay where they are.
@@ -112,7 +112,7 @@ pub(super) fn request<'a>(
     Request {
         rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
             .chain(names.superelements.values().map(Vec::as_slice))
-            .chain(names.meshes().map(|(_, own)| own.nodes))
+            .chain(names.meshes.all().map(|(_, own)| own.nodes))
             .collect(),
         fixed: fixed.to_vec(),
         values: values.to_vec(),

@@ -20,6 +20,12 @@ fn messages_name_what_is_wrong_and_the_remedy() {
         ("[10, 1, 0], [0, 1, 0]]", "[0, 1, 0], [10, 1, 0]]", "not convex"),
         ("corners = ", "mesh = \"none.msh\"\ncorners = ", "has several surfaces"),
         ("kind = \"displacement\"", "kind = \"section_force\"", "not on a beam"),
+        ("corners = ", "scale = 1e-3\ncorners = ", "used with a `mesh` only"),
+        (
+            "[outputs.tip]",
+            "[signals]\ngiven = \"push.power\"\n[outputs.push]\nkind = \"power\"\nof = \"end\"\n[outputs.tip]",
+            "spread over a set of nodes",
+        ),
         (
             "kind = \"force\"\non = \"plate.east\"\nvector = [0, 0, 4]",
             "kind = \"torque\"\njoint = \"root\"\nscale = 1",

@@ -18,6 +18,8 @@ fn messages_name_what_is_wrong_and_the_remedy() {
         ("size = [2, 1, 1]", "volume = [\"u\", \"v\", \"q\"]", "cannot name `q`"),
         ("size = [2, 1, 1]", "size = [2, 1, 1]\ngroup = \"g\"", "not used with `size`"),
         ("size = ", "mesh = \"none.msh\"\nsize = ", "has several volumes"),
+        ("size = [2, 1, 1]", "size = [2, 1, 1]\nscale = 1e-3", "not used with `size`"),
+        ("divisions = [2, 1, 1]", "divisions = [500, 500, 500]", "more than 1000000"),
         ("nu = 0.3", "nu = 0.49", "model = \"neo-hookean\""),
         (
             "material = \"soft\"",

@@ -19,6 +19,7 @@ use lissom_motion::{Matrix3, Vector3, rotation_part, skew, translation_part};
 use nalgebra::Matrix3x6;
 
 use super::contact::ContactForces;
+use super::least_distance::PARALLEL;
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
 use crate::contact::force_over_gap::{Distance, ForceOverGap};
@@ -34,8 +35,6 @@ use nearest_points::{Nearest, Placed, chord_distance, nearest};
 const MAX_POINTS: usize = 2 * SUPPORT;
 /// Numbers of the law: two ends of the tip and one of the base.
 const ARGUMENTS: usize = 9;
-/// Parameters are not free where the second derivatives are nearly singular: curves are parallel.
-const PARALLEL: f64 = 1e-10;
 
 /// Two curves that may touch where they are nearest.
 #[derive(Clone, Debug)]

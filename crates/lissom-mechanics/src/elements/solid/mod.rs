@@ -111,6 +111,14 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         Deformed { points, mean }
     }
 
+    /// Velocities of the nodes, global axes [m/s].
+    fn velocities_at_nodes(&self, at: &Kinematics) -> [Vector3; NODES] {
+        self.nodes.map(|node| {
+            let own = &at.nodes[node];
+            own.frame.rotation.apply(&own.twist.fixed_rows::<3>(0).into())
+        })
+    }
+
     /// V/V₀ - 1.
     fn mean_dilatation(&self, points: &[Deformation; POINTS]) -> f64 {
         let volumes = self.reference.volumes.iter();
@@ -179,10 +187,7 @@ impl<const NODES: usize, const POINTS: usize> Deformable for Solid<NODES, POINTS
 
     /// The largest strain rate at a point.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
-        let velocities = self.nodes.map(|node| {
-            let own = &at.nodes[node];
-            own.frame.rotation.apply(&own.twist.fixed_rows::<3>(0).into())
-        });
+        let velocities = self.velocities_at_nodes(at);
         let rate = |(point, slopes): (&Deformation, &[Vector3; NODES])| {
             let rate: Matrix3 = velocities.iter().zip(slopes).map(|(v, slope)| v * slope.transpose()).sum();
             let rate = rate * point.inverse_transpose.transpose();

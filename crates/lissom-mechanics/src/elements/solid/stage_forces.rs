@@ -88,10 +88,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
 
     fn velocities(&self, at: &Kinematics) -> Velocities<NODES> {
         let mean = |of: &[Vector3; NODES]| of.iter().sum::<Vector3>() / NODES as f64;
-        let all = self.nodes.map(|node| {
-            let own = &at.nodes[node];
-            own.frame.rotation.apply(&own.twist.fixed_rows::<3>(0).into())
-        });
+        let all = self.velocities_at_nodes(at);
         let positions = self.nodes.map(|node| at.nodes[node].frame.position);
         let (centre, drift) = (mean(&positions), mean(&all));
         let arms = positions.map(|position| position - centre);
@@ -128,7 +125,7 @@ fn gradient<const NODES: usize>(values: &[Vector3; NODES], slopes: &[Vector3; NO
 }
 
 /// sym Fᵀ δF.
-fn strain_change(gradient: &Matrix3, change: &Matrix3) -> Matrix3 {
+pub(super) fn strain_change(gradient: &Matrix3, change: &Matrix3) -> Matrix3 {
     let product = gradient.tr_mul(change);
     0.5 * (product + product.transpose())
 }

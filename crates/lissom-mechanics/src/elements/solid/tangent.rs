@@ -11,6 +11,7 @@ use lissom_motion::{Matrix3, Vector3};
 
 use super::deformation::Deformation;
 use super::law::SolidModel;
+use super::stage_forces::strain_change;
 use super::{Deformed, Solid};
 use crate::elements::Tangents;
 use crate::kinematics::{Kinematics, Stressed};
@@ -71,8 +72,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         std::array::from_fn(|p| {
             let mut strain = from[p].strain();
             if stressed.previous.is_some() {
-                let change = from[p].gradient.tr_mul(&(points[p].gradient - from[p].gradient));
-                strain += 0.5 * (change + change.transpose());
+                strain += strain_change(&from[p].gradient, &(points[p].gradient - from[p].gradient));
             }
             self.law.second_stress(&strain)
         })

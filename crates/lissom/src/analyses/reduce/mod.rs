@@ -233,7 +233,6 @@ fn total(matrices: &ReducedMatrices, interfaces: usize, axis: usize) -> f64 {
     rows().flat_map(|row| rows().map(move |column| (row, column))).map(|at| matrices.mass[at]).sum()
 }
 
-/// The node of this name: a body, a point mass, an interface, or a position on a beam.
 /// Names of nodes that were separated at every comma, also at that between u and v.
 fn joined_places(pieces: &[String]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
@@ -248,21 +247,24 @@ fn joined_places(pieces: &[String]) -> Vec<String> {
     names
 }
 
+/// The node of this name: a body, a point mass, an interface, a position on a beam, or a node of a shell or solid.
 fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     if let Some(&node) = names.nodes.get(name) {
         return Ok(node);
     }
     if let Some((part, place)) = name.split_once('@')
-        && let Some(nodes) = names.mesh(part)
+        && let Some(nodes) = names.meshes.nodes_of(part)
     {
-        let numbers = place.split(',').filter_map(|number| number.trim().parse().ok()).collect();
-        return match nodes.node_at(&MeshPlace::Fractions(numbers)) {
+        let numbers: Option<Vec<f64>> = place.split(',').map(|number| number.trim().parse().ok()).collect();
+        return match numbers.and_then(|numbers| nodes.node_at(&MeshPlace::Fractions(numbers))) {
             Some(node) => Ok(node),
-            None => question(format!("`{name}` is no node: write u and v of one, as \"panel@0.5,1\"")),
+            None => question(format!(
+                "`{name}` is no node: write u and v of one, and w of a solid, as \"panel@0.5,1\""
+            )),
         };
     }
     if let Some((part, set)) = name.rsplit_once('.')
-        && let Some(nodes) = names.mesh(part)
+        && let Some(nodes) = names.meshes.nodes_of(part)
     {
         return match nodes.node_at(&MeshPlace::Set(set.to_owned())) {
             Some(node) => Ok(node),
@@ -405,7 +407,7 @@ impl Chosen {
             NodeReference::Ground => None,
             NodeReference::Body(name) | NodeReference::PointMass(name) => self.names.nodes.get(name).copied(),
             NodeReference::Mesh { part, place } => {
-                self.names.mesh(part).and_then(|nodes| nodes.node_at(place))
+                self.names.meshes.nodes_of(part).and_then(|nodes| nodes.node_at(place))
             }
             NodeReference::Beam { beam, fraction } => {
                 self.names.lines.get(beam).and_then(|line| line.node_at(*fraction))
@@ -436,8 +438,16 @@ impl Chosen {
         ))
     }
 
-    /// Rejects beams that are connected to other parts elsewhere than at interfaces.
+    /// Rejects distributed loads, and beams that are connected to other parts elsewhere than at interfaces.
     fn refuse_beams(&self, own: &Document) -> Result<(), ReduceError> {
+        let shells = own.shells.iter().filter(|shell| !shell.loads.is_empty()).map(|shell| &shell.name);
+        let solids = own.elastic_solids.iter().filter(|solid| !solid.pressures.is_empty());
+        if let Some(name) = shells.chain(solids.map(|solid| &solid.name)).next() {
+            return question(format!(
+                "`{}` has pressure or forces per area, which a superelement cannot represent: remove them",
+                name.value
+            ));
+        }
         for beam in &own.beams {
             if !beam.distributed.is_empty() {
                 return question(format!(

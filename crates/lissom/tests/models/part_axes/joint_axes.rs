@@ -31,7 +31,7 @@ fn node(end: &End, name: &str) -> NodeId {
         (_, Some(beam)) => *names.lines[beam].nodes.last().expect("nodes"),
         // The first node of the only kinds of references to shells and solids in the scenes.
         _ if name.contains("@0,0") => {
-            names.mesh(name.split_once('@').expect("a node").0).expect("a shell or solid").nodes[0]
+            names.meshes.nodes_of(name.split_once('@').expect("a node").0).expect("a shell or solid").nodes[0]
         }
         _ => names.nodes[name],
     }

@@ -22,7 +22,7 @@ use super::quadrilateral::NODES;
 use crate::contact::compliance::Compliance;
 use crate::contact::force_over_gap::{Distance, ForceOverGap};
 use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
-use crate::elements::contact::{ContactForces, ContactFriction};
+use crate::elements::contact::{ContactForces, ContactFriction, STATES};
 use crate::elements::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns};
 use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, Switch, split};
@@ -33,8 +33,6 @@ use touch::{Foot, Touch, foot};
 
 /// Unknowns of the nodes of ball and element.
 const POSES: usize = 6 * (1 + NODES);
-/// States of the bristles.
-const STATES: usize = 3;
 
 /// A ball and an element of a shell that may touch.
 #[derive(Clone, Debug)]
@@ -339,7 +337,7 @@ impl ShellContact {
         });
         let is_own = is_touching && touch.is_own;
         ContactForces {
-            gap: foot.distance - self.radius,
+            gap: -self.depth(&touch),
             normal,
             force: friction - normal * Vector3::from(touch.outwards),
             friction,
@@ -356,7 +354,7 @@ impl ShellContact {
         let (moved, touch) = self.touch(at, &foot);
         let is_touching = self.is_touching(at, &touch);
         let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
-        [foot.distance - self.radius, moved.rate(&touch), normal]
+        [-self.depth(&touch), moved.rate(&touch), normal]
     }
 
     /// Energy of the bristles per normal force, and its derivative by them [m, -].

@@ -13,7 +13,7 @@
 
 use super::patch::{Patch, Spot, difference, square};
 use crate::dual::{Number, Three, dot, times};
-use crate::elements::least_distance::{Least, least};
+use crate::elements::least_distance::{Least, PARALLEL, least};
 use crate::round_off;
 
 /// Overlap with a neighbour at an edge; none without a neighbour.
@@ -46,7 +46,7 @@ fn inverse<T: Number>([[a, b], [_, d]]: [[T; 2]; 2], are_free: [bool; 2]) -> [[T
     let determinant = a * d - b * b;
     let one = T::constant(1.0);
     match are_free {
-        [true, true] if determinant.value() > 0.0 => {
+        [true, true] if a.value() > 0.0 && determinant.value() > PARALLEL * a.value() * d.value() => {
             [[d / determinant, -b / determinant], [-b / determinant, a / determinant]]
         }
         [true, false] if a.value() > 0.0 => [[one / a, zero], [zero; 2]],
