@@ -6,15 +6,16 @@
 //! z_c deflection at which they slip, μ(s) = μ + (μ_s - μ) exp(-(|s|/v_s)²); η variation of the tip's frame.
 //!
 //! ```text
-//! f = N n - N μ(s) [z_t/z_c + (1 - |z_t|²/z_c²) d],      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
-//! z' = s - α(|z|/z_c) max(0, s·ẑ) ẑ in contact,  0 without,      ẑ = z/|z|,      α = 0 below r₀, 1 from 1 on, cubic between
+//! f = N n - N μ(s) [z_t/max(z_c, |z_t|) + max(0, 1 - |z_t|²/z_c²) d],      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
+//! z' = s - α(|z|/z_c) max(0, s·ẑ) ẑ in contact,  0 without,      ẑ = z/|z|,      α(r) = 0 below r₀, r from 1 on, cubic between
 //! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)
 //! δd = Rᵀδp - η_v + d × η_θ,      δu = R (δc - c × η_θ),      δ(Rᵀf) = Rᵀδf + Rᵀf × η_θ
 //! ```
 //!
 //! Bristles deflect elastically below r₀ z_c, so that a sticking part does not creep, and yield from there to z_c, at which they slip
-//! [Dupont, Armstrong and Hayward 2000; here in two directions]. The term with d damps vibrations of a sticking part, and vanishes
-//! where bristles slip. Without contact bristles keep their deflection.
+//! [Dupont, Armstrong and Hayward 2000; here in two directions]. A step of a given size may overshoot z_c: α above 1 returns them, and the
+//! force remains at its limit. The term with d damps vibrations of a sticking part, and vanishes where bristles slip. Without contact
+//! bristles keep their deflection.
 
 use std::sync::Arc;
 
@@ -118,7 +119,7 @@ impl ContactFriction {
             let slope = 6.0 * beyond * (1.0 - beyond) / ((1.0 - ELASTIC_SHARE) * self.deflection);
             (beyond * beyond * (3.0 - 2.0 * beyond), slope)
         } else {
-            (1.0, 0.0)
+            (length / self.deflection, 1.0 / self.deflection)
         };
         let outer = direction * direction.transpose();
         let turn = (Matrix3::identity() - outer) / length;
@@ -149,13 +150,20 @@ impl ContactFriction {
             remaining if remaining > 0.0 => (remaining, 1.0),
             _ => (0.0, 0.0),
         };
-        let direction = relative + remaining * damping;
+        let length = relative.norm();
+        let (limited, limited_by) = if length > 1.0 {
+            let unit = relative / length;
+            (unit, (Matrix3::identity() - unit * unit.transpose()) / length)
+        } else {
+            (relative, Matrix3::identity())
+        };
+        let direction = limited + remaining * damping;
         let damping_by = (Matrix3::identity() - damping * damping.transpose()) * (root / velocity);
         Share {
             force: coefficient * direction,
             by_sliding: coefficient * remaining * damping_by
                 - direction * sliding.transpose() * (2.0 * more / (velocity * velocity)),
-            by_bristles: (Matrix3::identity() - damping * relative.transpose() * (2.0 * slope))
+            by_bristles: (limited_by - damping * relative.transpose() * (2.0 * slope))
                 * (coefficient / self.deflection),
         }
     }
@@ -784,7 +792,7 @@ mod tests {
         assert!(pair.0.load(Ordering::Relaxed) > 0);
     }
 
-    /// Bristles yield between the elastic limit and the deflection at slip, and beyond it follow the sliding completely.
+    /// Bristles yield between the elastic limit and the deflection at slip, and return to it from beyond.
     #[test]
     fn derivatives_of_yielding_are_those_of_differences() {
         let friction = ContactFriction {
