@@ -51,6 +51,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("computed-torque", "2"),
     ("contacts/ball-bearing", "0.01"),
     ("contacts/pile-of-spheres", "0.25"),
+    ("contacts/break", "0.2"),
     ("controlled-arm", "1"),
     ("crane-slack-cable", "1.2"),
     ("delta-robot", "0.5"),

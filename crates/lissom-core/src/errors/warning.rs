@@ -268,6 +268,42 @@ diagnostics! {
                 the model.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
+        /// Steps that solve for all touches at once damp the motion between touches.
+        SchemeDamps {
+            /// When it was first significant [s].
+            time: f64,
+            /// Energy lost between touches [J].
+            lost: f64,
+            /// The same over the energy exchanged.
+            share: f64,
+            /// The part that loses most.
+            part: Subject,
+        } => "scheme-damps-motion" {
+            time: *time,
+            subject: part,
+            cause: ("the steps damp the motion between touches: from t = {time} s on by more than 5 % of the energy exchanged; they have \
+                    removed {lost:.3e} J, {:.1} %, most of it from the {part}", 100.0 * *share),
+            remedy: "halve `step`: the loss is halved with it",
+            meaning: "A scheme of first order, with which contacts of many parts are solved, removes more than 5 % of the energy exchanged from parts \
+                that do not touch.",
+            advice: "Halve `step`: the loss is halved with it.",
+        }
+        /// Friction of rigid contacts that slide depends on normal forces that are not unique.
+        SlidingForcesNotUnique {
+            /// Time [s].
+            time: f64,
+            /// One of the contacts.
+            contact: Subject,
+        } => "sliding-forces-not-unique" {
+            time: *time,
+            subject: contact,
+            cause: ("at t = {time} s more rigid contacts slide than are needed to support the part: their normal forces are not unique, and the \
+                    {contact} is taken without force, so that its friction is missing and that of others is too large"),
+            remedy: "use contacts with a `stiffness` instead of `rigid`",
+            meaning: "More rigid contacts with friction slide than are needed to support a part. Its normal forces are not unique, and its motion depends \
+                on which contacts carry it.",
+            advice: "Use contacts with a `stiffness` instead of `rigid`.",
+        }
         /// The phase of a long motion without damping has drifted.
         EnergyDrift {
             /// When it was first significant [s].

@@ -3,9 +3,8 @@
 use lissom_motion::{Vector3, Vector6};
 use lissom_solver::{FactorError, KINDS, SYMMETRIC};
 
-use super::contacts::StepContacts;
+use super::contacts::{StepContacts, TouchState};
 use super::equations::StepEquations;
-use crate::contact::set::TouchState;
 use crate::kinematics::{LOCKED, NodeId, Quantity};
 use crate::newton::Descent;
 use crate::round_off;
@@ -39,7 +38,7 @@ impl Descent for StepEquations<'_> {
     fn settle(&mut self) -> bool {
         let Some(mut contacts) = self.work.contacts.take() else { return true };
         let (motion, start) = (&self.work.motions[0], &self.start.kinematics);
-        let is_settled = contacts.is_settled(self.system, (start, motion), self.scaled.step_size());
+        let is_settled = contacts.is_settled((start, motion), self.scaled.step_size());
         self.work.contacts = Some(contacts);
         is_settled
     }
@@ -50,7 +49,8 @@ impl StepEquations<'_> {
     pub(super) fn begin_contacts(&mut self, settings: &Settings) -> bool {
         let Some(contacts) = &mut self.work.contacts else { return false };
         contacts.tolerance = settings.limits.tolerance;
-        contacts.begin(self.system, &self.start.kinematics, self.scaled.step_size());
+        let sizes = [self.scaled.step_size(), settings.step_size];
+        contacts.begin(self.system, (&self.start.kinematics, false), sizes);
         true
     }
 
@@ -132,7 +132,7 @@ impl StepEquations<'_> {
     }
 
     /// Continues with a solver for the pattern of the touches.
-    fn take_pattern(&mut self, contacts: &StepContacts) {
+    pub(super) fn take_pattern(&mut self, contacts: &StepContacts) {
         // Without controls only gyroscopic terms and those of rotations in the step make it unsymmetric.
         let is_symmetric = contacts.solver.name == KINDS[0].name && !self.system.has_feedback();
         let solver = if is_symmetric { &SYMMETRIC } else { contacts.solver };

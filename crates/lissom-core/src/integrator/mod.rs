@@ -28,7 +28,7 @@ use crate::integrator::dense::{DenseOutput, SolvedStages};
 use crate::integrator::equations::StepEquations;
 use crate::integrator::projection::Projection;
 use crate::integrator::workspace::Workspace;
-use crate::kinematics::{Kinematics, MotionChange};
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
 use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
 use crate::round_off;
 use crate::saddle_point::TangentValues;
@@ -109,9 +109,14 @@ impl Integrator {
     /// Notes the touches at the start of a motion with steps of `size` [s].
     pub(crate) fn note_touches(&mut self, system: &System, at: &mut Kinematics, size: f64) {
         if let Some(contacts) = self.work.contacts.as_mut().filter(|_| at.touches.is_empty()) {
-            contacts.begin(system, at, size);
+            contacts.begin(system, (at, true), [size; 2]);
             contacts.write_first_touches(&mut at.touches);
         }
+    }
+
+    /// Time to the first touch of parts that move far in a step of `size` [s] from `at`, if it is within the step [s]: the step ends there.
+    pub(crate) fn first_touch(&mut self, system: &System, at: &Kinematics, size: f64) -> Option<f64> {
+        self.work.contacts.as_mut()?.near.first_touch(system, at, size)
     }
 
     /// Solves a step of `size` [s] and stores the result in `attempt`.
@@ -135,7 +140,7 @@ impl Integrator {
             step_equations(problem, start, &self.representative, self.scaled, &mut self.work, watch);
         equations.restart();
         let result = if equations.begin_contacts(settings) {
-            newton::descend(&mut equations)
+            newton::descend(&mut equations).and_then(|outcome| equations.resolve_impacts().map(|()| outcome))
         } else {
             newton::solve(&mut equations, &settings.limits, &mut self.jacobian_state)
         };
@@ -220,6 +225,9 @@ impl Integrator {
         end.kinematics.show_multipliers(&end.multipliers);
         if let Some(contacts) = &work.contacts {
             contacts.write_touches(&mut end.kinematics.touches);
+            if let Some(change) = contacts.impacts.change() {
+                add_impacts(system.layout(), (change, self.scaled.step_size()), end);
+            }
         }
         let (algorithmic, memory) = (&settings.scheme.algorithmic, &mut end.algorithmic);
         self.scaled.memory_from_unit_step(algorithmic, &work.unit, &work.increments, memory);
@@ -362,6 +370,24 @@ fn describe_failure(
         *after_pivoting = pivoted;
     }
     error
+}
+
+/// Adds changes of velocities and impulses of constraints, by row, that impacts cause in a step of `size` [s].
+fn add_impacts(layout: &Layout, (change, size): (&[f64], f64), end: &mut State) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut end.kinematics.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|(_, row)| **row != LOCKED) {
+            node.twist[k] += change[row as usize];
+            node.acceleration[k] += change[row as usize] / size;
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut end.kinematics.coordinates) {
+        coordinate.rate += change[row as usize];
+        coordinate.acceleration += change[row as usize] / size;
+    }
+    for (multiplier, impulse) in end.multipliers.iter_mut().zip(&change[layout.coordinate_count()..]) {
+        *multiplier += impulse / size;
+    }
+    end.kinematics.show_multipliers(&end.multipliers);
 }
 
 fn copy_motion(from: &Kinematics, to: &mut Kinematics) {

@@ -20,6 +20,7 @@ mod penetration;
 mod redundant_misfit;
 mod resolution;
 mod sampled_steps;
+mod scheme_damping;
 mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;
@@ -51,6 +52,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "contact-run", begin: contact::begin_run },
     Kind { name: "constraint-rates", begin: constraint_rates::begin },
     Kind { name: "resolution", begin: resolution::begin },
+    Kind { name: "scheme-damping", begin: scheme_damping::begin },
     Kind { name: "contact", begin: contact::begin },
     Kind { name: "linear-range", begin: linear_range::begin },
     Kind { name: "redundant-misfit", begin: redundant_misfit::begin },

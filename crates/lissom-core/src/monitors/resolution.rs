@@ -149,7 +149,9 @@ impl Resolution {
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let coordinates = beginning.problem.system.layout().coordinate_count();
-    let is_examined = beginning.is_planned_motion() && coordinates > 0;
+    // Errors of positions mean little where parts collide: there the energy that the scheme loses is examined.
+    let is_examined =
+        beginning.is_planned_motion() && coordinates > 0 && beginning.problem.system.contacts().is_empty();
     is_examined.then(|| Box::new(Resolution::new(coordinates)) as Box<dyn Monitor>)
 }
 

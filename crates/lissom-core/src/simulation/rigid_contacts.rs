@@ -218,6 +218,10 @@ pub(super) fn resolve(
         state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
         set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
     }
+    if let Some(&k) = kept.iter().find(|&&k| sliding_directions_differ(&candidates, &resting, k)) {
+        let (time, contact) = (state.kinematics.time, candidates[k].subject());
+        outcome.warnings.push(Warning::SlidingForcesNotUnique { time, contact });
+    }
     for k in kept {
         // Its gap changes by round-off.
         set_mode(candidates[k].contact, Mode::Kept, &mut state.kinematics);
@@ -421,6 +425,21 @@ fn reduce(candidates: &[Candidate<'_>], modes: &mut Modes, mut forces: Vec<f64>)
         forces.remove(omitted);
         kept.push(modes.remove(omitted).0);
     }
+}
+
+/// Smallest cosine of an angle between two directions that is round-off.
+const PARALLEL: f64 = 1.0 - 1e-6;
+
+/// Whether contacts that slide do so in other directions than one of them: their sum of friction then depends on the share of each.
+fn sliding_directions_differ(candidates: &[Candidate<'_>], resting: &[usize], one: usize) -> bool {
+    let direction = |k: usize| {
+        let own = &candidates[k];
+        let speed = own.sliding().norm();
+        let slides = own.contact.has_friction() && speed > own.contact.still();
+        slides.then(|| own.in_base(&(own.sliding() / speed)))
+    };
+    let Some(of_one) = direction(one) else { return false };
+    resting.iter().filter_map(|&k| direction(k)).any(|own| own.dot(&of_one) < PARALLEL)
 }
 
 /// Makes velocities consistent with the modes, and the modes with the shares that contacts have in the forces.

@@ -108,7 +108,11 @@ impl Simulation {
         // The size of the first part is exact.
         let mut rest = planned.unwrap_or(limit - self.now());
         loop {
-            let stop = self.next_stop(rest, planned.is_none().then_some(limit));
+            let mut stop = self.next_stop(rest, planned.is_none().then_some(limit));
+            let touch = self.integrator.first_touch(&self.system, &self.state.kinematics, stop.distance);
+            if let Some(distance) = touch {
+                stop = Stop { distance, clock: None, crossing: None, is_last: false };
+            }
             let has_arrived = self.advance_to(&stop, progress)?;
             if let Some(crossing) = stop.crossing.filter(|_| has_arrived) {
                 self.cross_breakpoint(&crossing, longest)?;

@@ -42,6 +42,8 @@ pub struct Touch {
     pub bristle: [f64; 3],
     /// Its stiffness [N/m].
     pub stiffness: f64,
+    /// Penetration without force: that with which the touch appeared [m].
+    pub relief: f64,
     /// Sliding velocity [m/s].
     pub slip: f64,
     /// Whether it slips, or has no friction.
@@ -50,6 +52,8 @@ pub struct Touch {
     pub impact_velocity: f64,
     /// Elastic energy [J].
     pub energy: f64,
+    /// Whether the next step continues it: not if the parts depart.
+    pub continues: bool,
 }
 
 impl Touch {

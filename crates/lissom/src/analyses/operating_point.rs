@@ -109,12 +109,12 @@ impl OperatingPoint {
     }
 
     fn find(self, document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
-        let document = &*document.with_contacts_as_elements();
+        let elements = &*document.with_contacts_as_elements();
         match self {
-            Self::Undeformed => undeformed(document, hand),
-            Self::Rotation => in_rotation(document, hand),
+            Self::Undeformed => undeformed(elements, hand),
+            Self::Rotation => in_rotation(elements, hand),
             Self::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
-                in_equilibrium(document, hand)
+                in_equilibrium(elements, hand)
             }
             Self::Static => after(document, document.analysis.end, hand),
             Self::Time(time) => after(document, time, hand),
@@ -233,18 +233,24 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     let time = session.progress().time;
     let simulation = session.simulation();
-    if !simulation.system().contacts().is_empty() {
-        let reason =
-            "with the scheme backward-euler contacts have no stiffness between steps; choose another scheme"
-                .to_owned();
-        return Err(ModesError::Time { time, reason });
-    }
-    let mut model = linear(simulation.system(), simulation.state(), simulation.settings())?;
+    let (system, state, settings) = (simulation.system(), simulation.state(), simulation.settings());
+    let lowered = if system.contacts().is_empty() {
+        None
+    } else {
+        let mut lowered = lower(&document.with_contacts_as_elements())?;
+        copy_motion((system, state), (&lowered.system, &mut lowered.state));
+        Some(lowered)
+    };
+    let (system, state, settings, channels) = match &lowered {
+        None => (system, state, settings, session.observed().channels()),
+        Some(own) => (&*own.system, &own.state, &own.settings, &own.channels[..]),
+    };
+    let mut model = linear(system, state, settings)?;
     let duration = document.analysis.end - document.analysis.start;
     if !is_static && has_come_to_rest(&model, duration) {
-        let mut still = simulation.state().clone();
+        let mut still = state.clone();
         stop(&mut still);
-        let resting = linear(simulation.system(), &still, simulation.settings())?;
+        let resting = linear(system, &still, settings)?;
         if resting.imbalance() <= STILL_BALANCED {
             model = resting;
         }
@@ -264,8 +270,24 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     if model.unsteadiness() > STEADY {
         warnings.push(AnalysisWarning::Unsteady { time, change: model.unsteadiness() });
     }
-    hand(LinearizationPoint { model: &model, channels: session.observed().channels(), warnings });
+    hand(LinearizationPoint { model: &model, channels, warnings });
     Ok(())
+}
+
+/// Copies the motion of a state to that of the same model with further coordinates: states of contacts that are elements.
+fn copy_motion((from, state): (&System, &State), (to, out): (&System, &mut State)) {
+    let (from, to) = (from.layout(), to.layout());
+    out.kinematics.time = state.kinematics.time;
+    out.kinematics.nodes.clone_from(&state.kinematics.nodes);
+    for (name, motion) in from.coordinate_names.iter().zip(&state.kinematics.coordinates) {
+        if let Some(index) = to.coordinate_names.iter().position(|own| own == name) {
+            out.kinematics.coordinates[index] = *motion;
+        }
+    }
+    if from.multiplier_count == to.multiplier_count {
+        out.multipliers.clone_from(&state.multipliers);
+        out.kinematics.show_multipliers(&state.multipliers);
+    }
 }
 
 /// Whether the velocities would displace the model by a negligible fraction of its length during the whole analysis, as after

@@ -2,8 +2,10 @@
 
 mod benchmarks;
 mod between_parts;
+mod impacts_of_many;
 mod many_parts;
 mod of_beams;
+mod planned_steps;
 mod rigid;
 mod rolling;
 mod shapes;

@@ -78,3 +78,29 @@ fn a_scale_shows_the_weight_of_a_pile() {
     let record = machine("pile-of-spheres", &[("analysis.end", "1.2")]);
     assert!((last(&record, "scale.f3").abs() / 340.651 - 1.0).abs() < 0.01, "{}", last(&record, "scale.f3"));
 }
+
+/// Blows that no step resolves drive the pile by s/(1 - e² g/a), with the ram that stops at each of them.
+#[test]
+fn a_pile_driver_drives_by_a_geometric_series() {
+    let gravity = 9.81;
+    let deceleration = 6000.0 / 200.0 - gravity;
+    let blow = 0.4 * 0.4 * gravity / deceleration;
+    for step in ["5e-4", "1e-4"] {
+        let record = machine("pile-driver", &[("analysis.step", step)]);
+        let depth = -last(&record, "pile.displacement");
+        assert!((depth / (blow / (1.0 - blow)) - 1.0).abs() < 0.01, "{step}: {depth}");
+    }
+}
+
+/// The break of a rack of balls keeps the momentum, and no step gains energy.
+#[test]
+fn a_break_keeps_its_momentum() {
+    let record = machine("break", &[("analysis.end", "0.4")]);
+    let at = record.times.iter().position(|time| *time > 0.066).expect("it lasts longer");
+    let momentum = series(&record, "momentum.p1");
+    assert!((momentum[at] / momentum[0] - 1.0).abs() < 0.03, "{}", momentum[at]);
+    let energy = series(&record, "energy.total");
+    assert!(energy[at] < 0.8 * energy[0], "the rack is broken");
+    let rise = energy.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::NEG_INFINITY, f64::max);
+    assert!(rise < 1e-5, "{rise:e}");
+}

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lissom_motion::Matrix6;
 use lissom_solver::{Pattern, Structure};
 
-use crate::contact::set::{TouchPoint, TouchState};
+use super::touch_point::{TouchPoint, TouchState};
 use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 
 /// Pairs in the pattern over those that touch from which it is reduced.

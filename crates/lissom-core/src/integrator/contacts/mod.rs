@@ -13,22 +13,27 @@
 //! at the start of the step, as in linearly implicit schemes; f acts on the position at the start, so that momenta are conserved.
 
 mod coupled_pattern;
+mod free_path;
+mod impact;
 mod near_points;
+mod touch_point;
 
 use lissom_motion::Vector3;
 use lissom_solver::SolverKind;
 
 use self::coupled_pattern::CoupledPattern;
+use self::impact::Impacts;
 use self::near_points::NearPoints;
-use crate::contact::set::{Touch, TouchState};
-use crate::kinematics::{Kinematics, LOCKED, Layout, split};
+pub(crate) use self::touch_point::TouchState;
+use crate::contact::set::Touch;
+use crate::kinematics::{Kinematics, Layout, NodeId};
 use crate::saddle_point::TangentValues;
 use crate::scaling::StageMotion;
 use crate::system::System;
 
 /// Corrections in which bounds of friction follow the iterates. From then on they are fixed until the iterations converge.
 const FOLLOWING: usize = 15;
-/// Largest number of times in a step that bounds are fixed anew, and that rebounds are weakened.
+/// Largest number of times in a step that bounds are fixed anew.
 const MAX_ROUNDS: usize = 10;
 /// Relative change of bounds below which they are accurate.
 const BOUND_CHANGE: f64 = 1e-3;
@@ -52,7 +57,9 @@ pub(crate) struct StepContacts {
     pub(crate) smooth: SmoothTangent,
     /// Residual in SI, by row.
     pub(crate) residual: Vec<f64>,
-    /// Corrections made in this step, and how often bounds were fixed anew or rebounds weakened.
+    /// Velocities after impacts.
+    pub(crate) impacts: Impacts,
+    /// Corrections made in this step, and how often bounds were fixed anew.
     pub(crate) corrections: usize,
     rounds: usize,
 }
@@ -80,9 +87,15 @@ impl StepContacts {
             pattern: CoupledPattern::new(system.layout(), system.structure()),
             smooth: SmoothTangent { values, diagonal: Vec::new() },
             residual: vec![0.0; system.layout().size()],
+            impacts: Impacts::new(system),
             corrections: 0,
             rounds: 0,
         }))
+    }
+
+    /// Label of the parts that joints and elements connect with a node; none if it does not move.
+    pub(crate) fn label_of(&self, layout: &Layout, node: NodeId) -> Option<usize> {
+        self.impacts.label_of(layout, node)
     }
 
     /// Counts a correction. Whether the tangent without touches is to be assembled for it: it hardly changes within a step, unless the
@@ -92,10 +105,16 @@ impl StepContacts {
         self.corrections == 1 || self.corrections > FOLLOWING
     }
 
-    /// Finds the points at which parts may touch in a step of `size` [s] from the `start`.
-    pub(crate) fn begin(&mut self, system: &System, start: &Kinematics, size: f64) {
+    /// Finds the points at which parts may touch in a step of `size` [s], part of a `planned` one [s], from the `start`, which may be that of
+    /// the motion.
+    pub(crate) fn begin(
+        &mut self,
+        system: &System,
+        (start, is_first): (&Kinematics, bool),
+        [size, planned]: [f64; 2],
+    ) {
         (self.corrections, self.rounds) = (0, 0);
-        self.near.begin(system, start, size);
+        self.near.begin(system, (start, is_first), [size, planned]);
     }
 
     /// Adds the forces of all points at the end of a motion from the `start` to the left-hand side of the equations.
@@ -116,74 +135,13 @@ impl StepContacts {
                 point.evaluate(&displacement)
             };
             self.states.push(state);
-            if state.force == Vector3::zeros() {
-                continue;
-            }
-            for (side, node) in point.nodes.into_iter().enumerate() {
-                let rows = layout.rows_of_node(node);
-                let [force, moment] = point.wrench(side, &state, &motion.at);
-                for (&row, value) in rows.iter().zip(force.iter().chain(moment.iter())) {
-                    if row != LOCKED {
-                        out[row as usize] -= value;
-                    }
-                }
-            }
+            point.add_wrenches(&-state.force, (&motion.at, layout), out);
         }
     }
 
     /// Updates what was fixed while the iterations converged. Whether nothing has changed.
-    pub(crate) fn is_settled(
-        &mut self,
-        system: &System,
-        (start, motion): (&Kinematics, &StageMotion),
-        size: f64,
-    ) -> bool {
-        !self.near.has_left(start, motion, size)
-            && !self.rebounds()
-            && !self.has_new_bounds()
-            && !self.gains_energy(system, &motion.at, size)
-    }
-
-    /// Whether impacts add energy in a step of `size` [s]: they supply more than the scheme dissipates, ½ Δvᵀ M Δv. Their rebounds are
-    /// then weakened.
-    fn gains_energy(&mut self, system: &System, at: &Kinematics, size: f64) -> bool {
-        let points = self.near.points.iter().zip(&self.states);
-        let supplied: f64 = points.map(|(point, state)| point.supplied(state)).sum();
-        if supplied <= 0.0 || self.rounds > MAX_ROUNDS {
-            return false;
-        }
-        let dissipated: f64 = system
-            .inertias()
-            .iter()
-            .map(|inertia| {
-                let node = &at.nodes[inertia.node()];
-                let (velocity, spin) = split(&node.twist);
-                let mut gained = node.acceleration;
-                let carried = spin.cross(&velocity);
-                for k in 0..3 {
-                    gained[k] += carried[k];
-                }
-                0.5 * size * size * gained.dot(&(inertia.mass() * gained))
-            })
-            .sum();
-        let gain = (supplied - dissipated) / supplied;
-        if gain <= self.tolerance {
-            return false;
-        }
-        // Of one impact that departs at u and gains the share g, 3 g u is enough.
-        let share = if self.rounds < MAX_ROUNDS { (1.0 - 3.0 * gain).max(0.0) } else { 0.0 };
-        self.rounds += 1;
-        let mut has_rebounds = false;
-        for point in &mut self.near.points {
-            has_rebounds |= point.weaken(share);
-        }
-        has_rebounds
-    }
-
-    /// Gives impacts their restitution. Whether one changes a force.
-    fn rebounds(&mut self) -> bool {
-        let pairs = self.near.points.iter_mut().zip(&self.states);
-        pairs.fold(false, |any, (point, state)| point.rebound(state) || any)
+    pub(crate) fn is_settled(&mut self, (start, motion): (&Kinematics, &StageMotion), size: f64) -> bool {
+        !self.near.has_left(start, motion, size) && !self.has_new_bounds()
     }
 
     /// Fixes the bounds of friction anew, if they were fixed. Whether they have changed.
@@ -217,32 +175,7 @@ impl StepContacts {
                 .zip(&self.changes)
                 .map(|(state, change)| state.force.dot(change))
                 .sum::<f64>();
-        let at = |share: f64| known + share * rise - touches(share);
-        let end = at(1.0);
-        if !(slope < 0.0 && end > WHOLE * -slope) {
-            return 1.0;
-        }
-        // The method of Illinois.
-        let [mut low, mut high] = [[0.0, slope], [1.0, end]];
-        let mut share = 1.0;
-        for _ in 0..MAX_EVALUATIONS {
-            share = (low[0] * high[1] - high[0] * low[1]) / (high[1] - low[1]);
-            if !(share > low[0] && share < high[0]) {
-                share = 0.5 * (low[0] + high[0]);
-            }
-            let value = at(share);
-            if value.abs() < FOUND * -slope {
-                break;
-            }
-            if value > 0.0 {
-                high = [share, value];
-                low[1] *= 0.5;
-            } else {
-                low = [share, value];
-                high[1] *= 0.5;
-            }
-        }
-        share
+        minimum_along(slope, |share| known + share * rise - touches(share))
     }
 
     /// The touches of a motion that begins, before its first step.
@@ -255,7 +188,43 @@ impl StepContacts {
     /// The touches at the end of the step.
     pub(crate) fn write_touches(&self, out: &mut Vec<Touch>) {
         out.clear();
-        let pairs = self.near.points.iter().zip(&self.states);
-        out.extend(pairs.filter_map(|(point, state)| point.end(state)));
+        let pairs = self.near.points.iter().zip(&self.states).enumerate();
+        out.extend(pairs.filter_map(|(index, (point, state))| {
+            let Some((placed, impact, departs)) = self.impacts.result(index) else {
+                let touch = point.end(state)?;
+                return Some(Touch { continues: !self.impacts.postpones(index), ..touch });
+            };
+            let touch = point.end_of_impact(state, (placed, impact));
+            Some(Touch { continues: touch.continues && !departs, ..touch })
+        }));
     }
+}
+
+/// Share of a correction at which the slope `at` along it vanishes, which is `slope` at its start.
+fn minimum_along(slope: f64, at: impl Fn(f64) -> f64) -> f64 {
+    let end = at(1.0);
+    if !(slope < 0.0 && end > WHOLE * -slope) {
+        return 1.0;
+    }
+    // The method of Illinois.
+    let [mut low, mut high] = [[0.0, slope], [1.0, end]];
+    let mut share = 1.0;
+    for _ in 0..MAX_EVALUATIONS {
+        share = (low[0] * high[1] - high[0] * low[1]) / (high[1] - low[1]);
+        if !(share > low[0] && share < high[0]) {
+            share = 0.5 * (low[0] + high[0]);
+        }
+        let value = at(share);
+        if value.abs() < FOUND * -slope {
+            break;
+        }
+        if value > 0.0 {
+            high = [share, value];
+            low[1] *= 0.5;
+        } else {
+            low = [share, value];
+            high[1] *= 0.5;
+        }
+    }
+    share
 }

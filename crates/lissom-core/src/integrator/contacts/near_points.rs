@@ -3,15 +3,25 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_motion::Vector6;
+use lissom_motion::{Vector3, Vector6};
 
-use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting, Step, TouchKey, TouchPoint};
-use crate::kinematics::{GROUND, Kinematics};
+use super::free_path::{FreePath, Instant};
+use super::touch_point::{Place, StepOfPoint, TouchPoint};
+use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting, TouchKey};
+use crate::contact::solids::Meeting;
+use crate::kinematics::{GROUND, Kinematics, split};
 use crate::scaling::StageMotion;
 use crate::system::System;
 
 /// Allowed travel over the expected one: that at the velocity and acceleration of the start, or the one that was too long.
 const TRAVEL_SHARE: f64 = 1.3;
+
+/// Path over the radius of a part from which it is followed.
+const SHORT: f64 = 0.01;
+/// Path over the radius from which a step ends at the first touch.
+const LONG: f64 = 0.1;
+/// Shares of a step between which it is divided.
+const DIVIDED: [f64; 2] = [0.02, 0.98];
 
 /// Finds the points.
 pub(crate) struct NearPoints {
@@ -30,6 +40,13 @@ pub(crate) struct NearPoints {
     /// Allowed travel of the farthest point by part [m].
     travel: Vec<f64>,
     pub(crate) points: Vec<TouchPoint>,
+    /// Whether the motion begins with the step.
+    is_first: bool,
+    /// Length of the planned step [s], and gravity [m/s²].
+    planned: f64,
+    gravity: Vector3,
+    /// Radius of the smallest part [m].
+    smallest: f64,
 }
 
 impl NearPoints {
@@ -60,13 +77,23 @@ impl NearPoints {
             levers: set.parts.iter().map(|part| part.radius).collect(),
             travel: vec![0.0; set.parts.len()],
             points: Vec::new(),
+            is_first: false,
+            planned: 0.0,
+            gravity: Vector3::zeros(),
+            smallest: set.parts.iter().map(|part| part.radius).fold(f64::INFINITY, f64::min),
             set: Arc::clone(set),
         }
     }
 
-    /// Finds the points of a step of `size` [s] from the `start`.
-    pub(super) fn begin(&mut self, system: &System, start: &Kinematics, size: f64) {
-        let gravity = system.gravity().norm();
+    /// Finds the points of a step of `size` [s], which is part of a `planned` one [s], from the `start`, which may be that of the motion.
+    pub(super) fn begin(
+        &mut self,
+        system: &System,
+        (start, is_first): (&Kinematics, bool),
+        [size, planned]: [f64; 2],
+    ) {
+        (self.is_first, self.planned, self.gravity) = (is_first, planned.max(size), *system.gravity());
+        let gravity = self.gravity.norm();
         self.measure_levers(start);
         for (index, part) in self.set.parts.iter().enumerate().filter(|(_, part)| part.node != GROUND) {
             let node = &start.nodes[part.node];
@@ -118,15 +145,70 @@ impl NearPoints {
             let own = &meetings[index];
             let [base, tip] = parts.map(|part| part as usize);
             let nodes = [base, tip].map(|part| set.parts[part].node);
-            let step = Step { size, compliance: compliances[base] + compliances[tip] };
+            let compliance = compliances[base] + compliances[tip];
+            let step = StepOfPoint { size, planned: self.planned, compliance, is_first: self.is_first };
+            let frames = nodes.map(|node| start.nodes[node].frame);
+            let path = FreePath::of(nodes, (start, self.gravity), size);
+            let radius = set.parts[base].radius.min(set.parts[tip].radius);
             let reach = travel[base] + travel[tip];
             for (point, (meeting, law)) in own.iter().enumerate() {
                 let key = TouchKey { rule, parts, point: point as u32 };
                 while touches.next_if(|touch| touch.key.rank() < key.rank()).is_some() {}
-                let before = touches.peek().copied().filter(|touch| touch.key == key);
-                points.extend(TouchPoint::at((key, meeting, law), nodes, (start, step), (reach, before)));
+                let before = touches.peek().copied().filter(|touch| touch.key == key && touch.continues);
+                let Some(mut place) = Place::of(meeting, frames, reach) else { continue };
+                let length = path.length(meeting, &place);
+                if before.is_none() && is_round(meeting) && length > SHORT * radius && place.gap > 0.0 {
+                    let Instant { time, .. } = path.first_touch(meeting, (place.gap, length));
+                    place = path.place_at(meeting, time).unwrap_or(place);
+                }
+                points.push(TouchPoint::at((key, meeting, law), nodes, (start, step), (place, before)));
             }
         }
+    }
+
+    /// Time to the first touch of a ball that moves far in a step of `size` [s] from the `start`, if it is within the step [s].
+    pub(crate) fn first_touch(&mut self, system: &System, start: &Kinematics, size: f64) -> Option<f64> {
+        let fall = size * system.gravity().norm();
+        let fastest = self.set.parts.iter().filter(|part| part.node != GROUND).map(|part| {
+            let (velocity, spin) = split(&start.nodes[part.node].twist);
+            velocity.norm() + fall + if part.radius.is_finite() { part.radius * spin.norm() } else { 0.0 }
+        });
+        if 2.0 * size * fastest.fold(0.0, f64::max) < LONG * self.smallest {
+            return None;
+        }
+        self.begin(system, (start, false), [size; 2]);
+        let mut first = f64::INFINITY;
+        for point in self.points.iter().filter(|point| point.is_impact) {
+            let parts = point.key.parts.map(|part| part as usize);
+            let nodes = parts.map(|part| self.set.parts[part].node);
+            let Some(meeting) = self.meeting_of(point).filter(|meeting| is_round(meeting)) else { continue };
+            let path = FreePath::of(nodes, (start, self.gravity), size);
+            let frames = nodes.map(|node| start.nodes[node].frame);
+            let Some(place) = Place::of(meeting, frames, f64::INFINITY) else { continue };
+            let length = path.length(meeting, &place);
+            let radius =
+                parts.map(|part| self.set.parts[part].radius).into_iter().fold(f64::INFINITY, f64::min);
+            if length > LONG * radius && place.gap > 0.0 {
+                let Instant { time, touches } = path.first_touch(meeting, (place.gap, length));
+                if touches && time > DIVIDED[0] * size && time < DIVIDED[1] * size {
+                    first = first.min(time);
+                }
+            }
+        }
+        first.is_finite().then_some(first)
+    }
+
+    /// The meeting of a point.
+    fn meeting_of(&self, point: &TouchPoint) -> Option<&Meeting> {
+        let TouchKey { rule, parts, point: index } = point.key;
+        let pair = NearPair { rule, parts };
+        let found = self.last.binary_search_by_key(&pair.rank(), |(own, _)| own.rank()).ok()?;
+        Some(&self.meetings[self.last[found].1][index as usize].0)
+    }
+
+    /// A point of the step at another configuration.
+    pub(super) fn placed_at(&self, point: &TouchPoint, at: &Kinematics) -> TouchPoint {
+        self.meeting_of(point).map_or(*point, |meeting| point.placed_at(meeting, at))
     }
 
     /// Whether a part has travelled farther than allowed: it is then allowed more, and the points are found again.
@@ -151,6 +233,11 @@ impl NearPoints {
         }
         has_left
     }
+}
+
+/// Whether a point is the centre of a ball.
+fn is_round(meeting: &Meeting) -> bool {
+    meeting.pair.reach() == 0.0
 }
 
 /// The points of two parts, each with its law.

@@ -20,10 +20,18 @@ pub enum Impact {
 
 impl Impact {
     /// a for a touch that began at `velocity` [m/s].
-    pub(super) fn factor(&self, velocity: f64) -> f64 {
+    pub fn factor(&self, velocity: f64) -> f64 {
         match *self {
             Self::Dissipation(factor) => factor,
             Self::Restitution { relative, rest_velocity, .. } => relative / velocity.max(rest_velocity),
+        }
+    }
+
+    /// Velocity of slow impacts, which do not rebound [m/s]; none without restitution.
+    pub fn rest_velocity(&self) -> Option<f64> {
+        match *self {
+            Self::Dissipation(_) => None,
+            Self::Restitution { rest_velocity, .. } => Some(rest_velocity),
         }
     }
 }

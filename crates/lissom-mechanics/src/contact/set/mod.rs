@@ -1,20 +1,15 @@
-//! Parts that may touch at many points, as one set: which of them are near, and the force at each point as a function of the
-//! displacement in a step. For schemes that solve for the velocities at the end of a step with all touches at once.
-//!
-//! Parts that are far from each other cost nothing, and a point has no unknowns of its own: its force is a function of the motion of
-//! its two nodes.
+//! Parts that may touch at many points, as one set: which of them are near, and the points and laws of their touches. Parts that are far
+//! from each other cost nothing.
 
 mod impact;
 mod near_pairs;
 mod smallest_gap;
-mod touch_point;
 
 use lissom_motion::Motion;
 
 pub use impact::Impact;
 pub use near_pairs::{NearPair, NearPairs};
 pub use smallest_gap::SmallestGap;
-pub use touch_point::{Step, TouchPoint, TouchState};
 
 use super::compliance::Compliance;
 use super::solids::{Meeting, PlacedSolid, meetings};
@@ -150,15 +145,15 @@ impl ContactSet {
     }
 }
 
-/// The axes of a meeting's base, and its tip in them.
-pub(crate) fn placed(meeting: &Meeting, nodes: [NodeId; 2], at: &Kinematics) -> (Motion, Motion) {
-    let frame = |side: usize| at.nodes[nodes[meeting.sides[side]]].frame * meeting.frames[side];
+/// The axes of a meeting's base, and its tip in them, for the frames of both parts.
+pub fn placed(meeting: &Meeting, frames: [Motion; 2]) -> (Motion, Motion) {
+    let frame = |side: usize| frames[meeting.sides[side]] * meeting.frames[side];
     let base = frame(0);
     (base, frame(1).relative_to(&base))
 }
 
 /// The gap of a meeting [m].
 pub(crate) fn gap_of(meeting: &Meeting, nodes: [NodeId; 2], at: &Kinematics) -> f64 {
-    let (_, tip) = placed(meeting, nodes, at);
+    let (_, tip) = placed(meeting, nodes.map(|node| at.nodes[node].frame));
     meeting.pair.value(&tip.position, &tip.rotation.matrix())
 }

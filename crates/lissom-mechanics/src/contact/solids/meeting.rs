@@ -16,11 +16,13 @@ use crate::contact::surfaces::MeshError;
 type Row = (&'static [FormKind], FormKind, Parts, Option<Parts>);
 
 /// Forms that touch, every two of them once. Edges that cross touch once: those of one of both are parts.
-const PAIRS: [Row; 17] = [
+const PAIRS: [Row; 18] = [
     (&[Plane, Sphere, Capsule, Cylinder, Tube, Box], Sphere, Parts::Middle, None),
     (&[Hull, Polygon, Outline, Mesh, HeightField], Sphere, Parts::Middle, None),
     (&[Plane], Capsule, Parts::Ends, None),
-    (&[Capsule, Cylinder, Box, Hull], Capsule, Parts::Axis, None),
+    (&[Capsule, Cylinder, Hull], Capsule, Parts::Axis, None),
+    // Two points on a face: one of a crowned axis would move as the capsule tilts.
+    (&[Box], Capsule, Parts::Ends, Some(Parts::Edges)),
     (&[Plane], Cylinder, Parts::Rims, None),
     (&[Plane], Tube, Parts::Rims, None),
     // Rollers, whose axes are parallel to those of the prisms.
