@@ -12,6 +12,9 @@ use crate::saddle_point::TangentValues;
 use crate::saddle_point::stage_tangents::StageTangents;
 use crate::settings::{Phase, Settings};
 
+/// Tolerance of the residual over that of other schemes: the errors of all parts add to the energy.
+const SHARE_OF_TOLERANCE: f64 = 0.1;
+
 impl Descent for StepEquations<'_> {
     fn residual(&mut self) -> f64 {
         self.watch.begin(Phase::Evaluation);
@@ -48,7 +51,7 @@ impl StepEquations<'_> {
     /// Finds the points at which parts may touch in the step. Whether there are parts that may.
     pub(super) fn begin_contacts(&mut self, settings: &Settings) -> bool {
         let Some(contacts) = &mut self.work.contacts else { return false };
-        contacts.tolerance = settings.limits.tolerance;
+        contacts.tolerance = SHARE_OF_TOLERANCE * settings.limits.tolerance;
         let sizes = [self.scaled.step_size(), settings.step_size];
         contacts.begin(self.system, (&self.start.kinematics, false), sizes);
         true

@@ -35,6 +35,11 @@ impl Compliance {
         Self { stiffness: 4.0 / 3.0 / compliance / f64::sqrt(curvature), exponent: 1.5 }
     }
 
+    /// Stiffness of a linear force; zero of others [N/m].
+    pub fn linear_stiffness(&self) -> f64 {
+        if self.exponent == 1.0 { self.stiffness } else { 0.0 }
+    }
+
     /// Force at a penetration and its rate with the factor a, and its derivatives with respect to both.
     pub fn force(&self, depth: f64, rate: f64, dissipation: f64) -> [f64; 3] {
         let factor = 1.0 + dissipation * rate;

@@ -60,8 +60,9 @@ fn blocks_stop_and_balls_roll_with_every_scheme_and_step() {
             assert!((last(&record, "p.x") / way - 1.0).abs() < allowed, "{what}: {}", last(&record, "p.x"));
             friction_is_limited(&record, &what);
             let record = run(&block(0.0, 2.0 * MU * G), &set);
+            // It gains some mm/s before its bristles slip.
             let way = 0.5 * MU * G * 0.36;
-            assert!((last(&record, "p.x") / way - 1.0).abs() < allowed, "{what}: {}", last(&record, "p.x"));
+            assert!((last(&record, "p.x") / way - 1.0).abs() < 5e-3, "{what}: {}", last(&record, "p.x"));
             friction_is_limited(&record, &what);
             let record = run(&ball(), &set);
             let until = 1.5 * 2.0 / (7.0 * MU * G);

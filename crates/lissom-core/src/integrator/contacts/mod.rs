@@ -190,12 +190,13 @@ impl StepContacts {
         out.clear();
         let pairs = self.near.points.iter().zip(&self.states).enumerate();
         out.extend(pairs.filter_map(|(index, (point, state))| {
-            let Some((placed, impact, departs)) = self.impacts.result(index) else {
-                let touch = point.end(state)?;
-                return Some(Touch { continues: !self.impacts.postpones(index), ..touch });
+            let (touch, continues) = match self.impacts.result(index) {
+                None => (point.end(state)?, !self.impacts.postpones(index)),
+                Some((placed, impact, departs)) => (point.end_of_impact(state, (placed, impact)), !departs),
             };
-            let touch = point.end_of_impact(state, (placed, impact));
-            Some(Touch { continues: touch.continues && !departs, ..touch })
+            let continues = touch.continues && continues;
+            let energy = if continues { touch.energy } else { 0.0 };
+            Some(Touch { continues, energy, ..touch })
         }));
     }
 }

@@ -16,8 +16,10 @@
 //! stops in its first step instead, see [`impact`](super::impact). Its force is near-rigid then, with x = -φ - δ - d_n:
 //!
 //! ```text
-//! f_n = max(0, x)/(R h²),      R = w/10⁴,      K = 1/(σ h² w),      no friction if the impact gives it
+//! f_n = max(0, x) max(1/(R h²), k),      R = w/10⁴,      K = 1/(σ h² w),      no friction if the impact gives it
 //! ```
+//!
+//! It is not softer than the elastic force of the next step, which would have more energy.
 //!
 //! A touch that appears with a penetration, as where a corner changes its face, has no energy: its relief δ is this penetration.
 
@@ -35,6 +37,9 @@ const BRISTLE_SHARE: f64 = 0.1;
 const RESOLVED_SHARE: f64 = 0.002;
 /// Velocity of impact of laws without a velocity of rest below which touches have the same duration [m/s].
 const SLOW: f64 = 1e-3;
+/// Largest product of the dissipation factor and the velocity of impact of touches that steps do not resolve: parts that come to rest with
+/// a small restitution would take seconds to sink to their depth.
+const SETTLING: f64 = 0.1;
 /// R over w of a touch in the first step of an impact.
 const NEAR_RIGID: f64 = 1e-4;
 
@@ -189,9 +194,9 @@ impl TouchPoint {
             place,
             size: step.size,
             law: *law,
-            dissipation: law.impact.factor(impact_velocity),
+            dissipation: law.impact.factor(impact_velocity, is_unresolved.then_some(SETTLING)),
             relief,
-            near_rigid: is_rigid.then_some(resolved / NEAR_RIGID),
+            near_rigid: is_rigid.then_some((resolved / NEAR_RIGID).max(law.compliance.linear_stiffness())),
             bristle,
             stiffness,
             compliance: step.compliance,
@@ -409,13 +414,14 @@ impl TouchPoint {
         self.place.gap + state.displacement.z
     }
 
-    /// Elastic energy of the touch and its bristle at the end of the step [J].
+    /// Elastic energy of the touch and its bristle at the end of the step, with which the next one continues [J].
     pub(super) fn energy(&self, state: &TouchState) -> f64 {
-        if !self.is_touching(state) || self.near_rigid.is_some() {
+        if !self.is_touching(state) {
             return 0.0;
         }
         let depth = -self.gap_at(state) - self.relief;
-        self.law.compliance.energy(depth) + 0.5 * self.stiffness * self.bristle_at(state).norm_squared()
+        let bristle = if self.near_rigid.is_some() { 0.0 } else { self.bristle_at(state).norm_squared() };
+        self.law.compliance.energy(depth) + 0.5 * self.stiffness * bristle
     }
 
     /// The touch at the end of the step, if both parts touch then.

@@ -19,11 +19,13 @@ pub enum Impact {
 }
 
 impl Impact {
-    /// a for a touch that began at `velocity` [m/s].
-    pub fn factor(&self, velocity: f64) -> f64 {
+    /// a for a touch that began at `velocity` [m/s]; of a restitution the product with this velocity may be limited.
+    pub fn factor(&self, velocity: f64, most: Option<f64>) -> f64 {
         match *self {
             Self::Dissipation(factor) => factor,
-            Self::Restitution { relative, rest_velocity, .. } => relative / velocity.max(rest_velocity),
+            Self::Restitution { relative, rest_velocity, .. } => {
+                most.map_or(relative, |most| relative.min(most)) / velocity.max(rest_velocity)
+            }
         }
     }
 
