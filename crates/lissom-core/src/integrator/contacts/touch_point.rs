@@ -21,7 +21,8 @@
 //!
 //! It is not softer than the elastic force of the next step, which would have more energy.
 //!
-//! A touch that appears with a penetration, as where a corner changes its face, has no energy: its relief δ is this penetration.
+//! A touch that appears with a penetration, as where a corner changes its face, has no energy: its relief δ is this penetration. The same
+//! holds for a penetration that jumps.
 
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 use nalgebra::Vector2;
@@ -40,6 +41,8 @@ const SLOW: f64 = 1e-3;
 /// Largest product of the dissipation factor and the velocity of impact of touches that steps do not resolve: parts that come to rest with
 /// a small restitution would take seconds to sink to their depth.
 const SETTLING: f64 = 0.1;
+/// Change of the gap between two steps over the path of the parts in a step above which it is a jump.
+const JUMP: f64 = 0.5;
 /// R over w of a touch in the first step of an impact.
 const NEAR_RIGID: f64 = 1e-4;
 
@@ -169,7 +172,16 @@ impl TouchPoint {
         let is_unresolved = step.size > RESOLVED_SHARE * duration;
         let is_new = before.is_none();
         let relief = match before {
-            Some(touch) => touch.relief,
+            Some(touch) => {
+                // Beyond what the motion explains the gap has jumped, as where another part of an edge is nearest now.
+                let speed = nodes.iter().zip(&arms).map(|(&node, arm)| {
+                    let (velocity, spin) = split(&start.nodes[node].twist);
+                    velocity.norm() + spin.norm() * arm.norm()
+                });
+                let path = step.size * (JUMP * speed.sum::<f64>() + rest_velocity.unwrap_or(SLOW));
+                let deeper = touch.gap - gap;
+                touch.relief + if deeper > path { deeper } else { 0.0 }
+            }
             None if step.is_first => 0.0,
             None => (-gap).max(0.0),
         };
