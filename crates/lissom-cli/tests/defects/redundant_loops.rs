@@ -167,3 +167,21 @@ analysis = {{ kind = "dynamics", end = 2 }}
         }
     }
 }
+
+/// A scissor jack with redundant hinges, whose thread has its equations in the axes of the spindle that turns: each is redundant at some
+/// angles and the only independent one at others. The pins of the spindle are 54 mm closer together after nine turns.
+#[test]
+fn redundant_equations_in_axes_that_turn_are_exchanged_in_time() {
+    let (arm, half): (f64, f64) = (0.26, 0.245);
+    let height = |half: f64| 2.0 * (arm * arm - half * half).sqrt();
+    let risen = height(half - 0.027) - height(half);
+    let alpha = ["--set", "analysis.scheme=generalized-alpha", "--set", "analysis.step=0.004"];
+    let euler = ["--set", "analysis.scheme=backward-euler", "--set", "analysis.step=0.01"];
+    let exchanged = ["--set", "joints.thr.base=spindle", "--set", "joints.thr.tip=tr"];
+    for change in [&[][..], &alpha, &euler, &exchanged] {
+        let results = Results::of("run", "scissor-jack.toml", &[&["--no-plots"], change].concat());
+        results.assert_done();
+        near("up.displacement", results.last("up.displacement"), risen, 1e-8);
+        assert!(violation(&results) < 1e-8, "{change:?}: {}", violation(&results));
+    }
+}

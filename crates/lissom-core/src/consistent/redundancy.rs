@@ -13,7 +13,8 @@
 //!
 //! Equations that are dependent to within the geometric tolerance count as dependent: axes and lengths are often rounded to six
 //! digits. Their misfit remains as a violation of least norm. The selection follows the motion: where the kept equations determine
-//! little, as at the dead centre of a coupling rod, it is repeated; the solution does not depend on it.
+//! little, it is repeated, for example at the dead centre of a coupling rod, or where an equation is in the axes of a part that rotates,
+//! such as the tip of a screw. Steps do so with each tangent. The solution does not depend on the selection.
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -43,6 +44,8 @@ const MAX_JOINTS: usize = 6;
 const FEW_SAMPLES: usize = 2;
 /// A selection is repeated if its smallest pivot falls below this fraction of that at its selection.
 const WORSE: f64 = 0.1;
+/// Smallest pivot of a selection that replaces another one: closer to a singular position none is better determined.
+const DETERMINED: f64 = PIVOTS[3];
 /// Pivot below which a position is close to a singular one.
 const CLOSE: f64 = 1e-2;
 
@@ -201,12 +204,25 @@ impl Redundancy {
     /// Selects again where the kept equations determine little at this position, or where others act. Returns whether other equations
     /// are omitted.
     pub(crate) fn follow(&mut self, system: &System, at: &Kinematics) -> bool {
+        self.follow_to((system, at), false)
+    }
+
+    /// The same at an iterate of a step, for its tangent: equations in axes that rotate in the step, such as those of a screw, may be
+    /// redundant at its start, and the only independent ones at its end.
+    pub(crate) fn follow_iterate(&mut self, system: &System, at: &Kinematics) -> bool {
+        self.follow_to((system, at), true)
+    }
+
+    fn follow_to(&mut self, (system, at): (&System, &Kinematics), is_iterate: bool) -> bool {
         let (length, is_instantaneous, work) = (self.length, self.is_instantaneous, &mut self.work);
         let mut has_changed = false;
         for group in &mut self.groups {
             group.measure(system, at, length, work);
             let own = &group.selection;
             if is_instantaneous || work.acting != own.acting {
+                if is_iterate {
+                    continue;
+                }
                 let before = std::mem::take(&mut group.selection);
                 group.select(system, at, (length, is_instantaneous), work);
                 has_changed |= group.multipliers(&before).ne(group.multipliers(&group.selection));
@@ -434,7 +450,7 @@ impl Group {
         let own = &mut self.selection;
         if work.factor.kept.len() == before.kept.len()
             && smallest * WORSE > before.smallest
-            && smallest > CLOSE
+            && smallest > DETERMINED
         {
             own.kept.clone_from(&work.factor.kept);
             own.omitted = (0..own.acting.len()).filter(|equation| !own.kept.contains(equation)).collect();

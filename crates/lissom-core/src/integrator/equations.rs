@@ -529,6 +529,12 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Linearisation);
         self.work.newton.anderson.forget();
         self.linearize();
+        let Workspace { redundancy, tangent, motions, .. } = &mut *self.work;
+        if let Some(reached) = motions.get(self.scheme.stages.len() - 1)
+            && redundancy.follow_iterate(self.system, &reached.at)
+        {
+            tangent.omit(redundancy.omitted());
+        }
         self.work.round_off.force = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
         self.work.tangent.renew(self.system.structure(), self.scaled.scale())?;
