@@ -133,7 +133,6 @@ pub(super) fn elastic_solids(context: &Context<'_>, materials: &[Material]) -> V
         joined(reader, &mut mesh)?;
         check(reader, &mesh)?;
         mesh.find_faces();
-        mesh.sets.insert(ALL.to_owned(), (0..mesh.positions.len()).collect());
         let mut own_sets = std::mem::take(&mut mesh.sets);
         sets(reader, &mesh.positions, &mut own_sets)?;
         mesh.sets = own_sets;
@@ -302,7 +301,10 @@ fn mesh(reader: &Reader<'_, '_>) -> Option<SolidMesh> {
         for (name, nodes) in of_elements {
             mesh.node_sets.entry(name).or_insert(nodes);
         }
-        let part = mesh.part(group.as_deref(), is_solid)?;
+        let mut part = mesh.part(group.as_deref(), is_solid)?;
+        // Between linear elements nodes are added that a set of all nodes in the file lacks.
+        let count = part.positions.len();
+        part.node_sets.retain(|name, nodes| name != ALL || nodes.len() < count);
         Ok((part, edges))
     });
     let (mesh, edges) = match read {

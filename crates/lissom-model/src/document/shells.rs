@@ -406,8 +406,7 @@ fn patch(reader: &Reader<'_, '_>, surface: &PointOf, [m, n]: [usize; 2]) -> Opti
         (0..=m).map(|i| node(i, 0)).collect(),
         (0..=m).map(|i| node(i, n)).collect(),
     ];
-    let mut sets: BTreeMap<String, Vec<usize>> = SIDES.map(str::to_owned).into_iter().zip(sides).collect();
-    sets.insert(ALL.to_owned(), (0..positions.len()).collect());
+    let sets: BTreeMap<String, Vec<usize>> = SIDES.map(str::to_owned).into_iter().zip(sides).collect();
     let elements = (0..m * n).map(element).collect();
     Some(ShellMesh { positions, places: Some(places), normals: Some(normals), elements, sets })
 }
@@ -481,7 +480,6 @@ fn of_mesh(mesh: &Mesh, frame: &Motion, scale: f64) -> ShellMesh {
     for (name, elements) in &mesh.element_sets {
         sets.entry(name.clone()).or_insert_with(|| mesh.nodes_of(elements));
     }
-    sets.insert(ALL.to_owned(), (0..mesh.positions.len()).collect());
     let corners = |nodes: &[usize]| <[usize; 4]>::try_from(nodes).ok();
     ShellMesh {
         positions: mesh.positions.iter().map(position).collect(),
@@ -547,19 +545,33 @@ fn join(mesh: &mut ShellMesh) {
     }
 }
 
-/// Reads `sets` of nodes at these positions.
+/// Adds the set of all nodes, and reads `sets` of nodes at these positions.
 pub(super) fn sets(
     reader: &Reader<'_, '_>,
     positions: &[Vector3],
     sets: &mut BTreeMap<String, Vec<usize>>,
 ) -> Option<()> {
     let context = reader.context;
+    let of_file = sets.insert(ALL.to_owned(), (0..positions.len()).collect());
+    if let Some(count) = of_file.map(|own| own.len()).filter(|&count| count < positions.len()) {
+        let all = positions.len();
+        let message =
+            format!("the mesh of {} has a set `{ALL}` of {count} nodes, not of its {all}", reader.what);
+        let help = "this name means all nodes: give the set in the file another one";
+        return context.fail(reader.name, message, help);
+    }
     let Some(node) = reader.node("sets") else { return Some(()) };
     let Some(table) = node.table() else {
         return context.wrong_type(node, &reader.words("sets"), "a table of sets");
     };
     for (name, entry) in table {
         let what = format!("set `{name}` of {}", reader.what);
+        if let Some(present) = sets.get(name) {
+            let of_all = if name == ALL { ", that of all its nodes" } else { "" };
+            let count = present.len();
+            let message = format!("{} has another set `{name}` of {count} nodes{of_all}", reader.what);
+            return context.fail(entry.key, message, "give this one another name");
+        }
         let own = Reader::open(context, &entry.node, (what.clone(), entry.node.span), Shape::set_keys())?;
         let place = |key: &str| match own.node(key) {
             Some(node) => context.place(node, &own.words(key)).map(|place| Some(place.value)),
