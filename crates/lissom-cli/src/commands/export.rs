@@ -11,6 +11,7 @@ use lissom::{Override, ResultFolder};
 
 use super::model_arguments;
 use super::outcome::{Exit, Failure};
+use super::results::warn_of_incomplete;
 use super::terminal;
 
 /// Export results to ParaView, Blender, NumPy or pandas, or a model of rigid bodies as URDF.
@@ -72,6 +73,7 @@ impl Export {
         let run =
             ResultFolder::recorded(&self.folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         lissom::protect_results(&self.folder);
+        warn_of_incomplete(&self.folder);
         let target = self.out.clone().unwrap_or_else(|| self.folder.join(format.target));
         if format.is_folder {
             files::create_folder(&target).map_err(|error| Failure::new(Exit::Failed, &error))?;

@@ -8,6 +8,7 @@ use lissom::model::output::{Over, Source, plots};
 use lissom::{FolderError, Record, ResultFolder};
 
 use super::outcome::{Exit, Failure};
+use super::results::warn_of_incomplete;
 use super::terminal;
 
 /// Plot the `history.csv` of one or several folders of results.
@@ -55,6 +56,7 @@ impl Plot {
             .map(|folder| ResultFolder::open(folder).map_err(bad))
             .collect::<Result<_, _>>()?;
         self.folders.iter().for_each(|folder| lissom::protect_results(folder));
+        self.folders.iter().for_each(|folder| warn_of_incomplete(folder));
         let is_plain = self.of.is_empty() && self.over.is_none() && !self.spectrum && self.out.is_none();
         let [(first, record, title), others @ ..] = &*found else {
             return Err(Failure::request("name a folder of results"));

@@ -12,6 +12,7 @@ use lissom::{FolderError, Override, RecordedModes, ResultFolder};
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
 use super::outcome::{Exit, Failure};
+use super::results::warn_of_incomplete;
 use super::run::Run;
 use super::terminal;
 
@@ -175,7 +176,9 @@ impl Snapshot {
                 let message = format!("`{}` is a folder of results", self.what.display());
                 return Err(Failure::request(format!("{message}; --initial and --set need a model")));
             }
-            return self.of_folder(&self.what, is_png).map(|()| Exit::Done);
+            self.of_folder(&self.what, is_png)?;
+            warn_of_incomplete(&self.what);
+            return Ok(Exit::Done);
         }
         let folder = Path::new("out").join(self.what.file_stem().unwrap_or_default());
         if self.initial {

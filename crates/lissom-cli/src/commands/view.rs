@@ -11,6 +11,7 @@ use lissom::{CommandError, FileError, Override, ResultFolder};
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
 use super::outcome::{Exit, Failure};
+use super::results::warn_of_incomplete;
 use super::run::Run;
 use super::terminal;
 
@@ -90,7 +91,9 @@ impl View {
             let message = format!("`{}` is a folder of results", self.what.display());
             return Err(Failure::request(format!("{message}; --initial, --set and --out need a model")));
         }
-        self.show(&self.what).map(|()| Exit::Done)
+        self.show(&self.what)?;
+        warn_of_incomplete(&self.what);
+        Ok(Exit::Done)
     }
 
     /// Writes the page of a folder of results.

@@ -41,13 +41,22 @@ impl ResultFolder {
         Ok(RecordedRun { title, scene, motion, record })
     }
 
+    /// A sentence about a run that did not reach its end, such as one that was killed; none of complete results.
+    pub fn incomplete(path: &Path) -> Option<String> {
+        Notice::of_end(&Self::summary(path)).map(|notice| notice.text().to_owned())
+    }
+
+    fn summary(path: &Path) -> Value {
+        let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
+        serde_json::from_str(&summary).unwrap_or_default()
+    }
+
     /// Content of the page of a folder with a run, natural modes, or a Campbell diagram.
     ///
     /// # Errors
     /// If there is no table, or if table, motion or scene are invalid.
     pub fn results(path: &Path) -> Result<Results, FolderError> {
-        let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
-        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+        let summary = Self::summary(path);
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let results = Results::new(&name).with_summary(&summary);
         if path.join(MODES).is_file() {

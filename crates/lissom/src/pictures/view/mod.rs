@@ -57,6 +57,29 @@ impl Notice {
         notice.with_facts(&facts(diagnostic))
     }
 
+    /// A run that did not reach its end, by the contents of `summary.json`.
+    pub(crate) fn of_end(summary: &Value) -> Option<Self> {
+        let word = |name: &str| summary[name].as_str().unwrap_or_default();
+        let time = summary["time"].as_f64().unwrap_or_default();
+        match word("stopped") {
+            "failed" => {
+                let failure = &summary["failure"];
+                let cause = failure["cause"].as_str().unwrap_or(word("error"));
+                Some(Self::error(format!("The run failed: {cause}")).with_facts(failure))
+            }
+            "interrupted" => Some(Self::warning(format!("The run was interrupted at t = {time} s."))),
+            "running" => {
+                Some(Self::warning("The run is incomplete: it was killed, or is still in progress."))
+            }
+            _ => None,
+        }
+    }
+
+    /// Its text.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
     fn with_facts(self, facts: &Value) -> Self {
         let of = |name: &str| facts[name].clone();
         Self { code: of("code"), remedy: of("remedy"), part: of("part"), time: of("time"), ..self }
@@ -119,18 +142,7 @@ impl Results {
             let method = if word("analysis") == "path" { "equilibrium path" } else { word("scheme") };
             self.facts = format!("{method} · {unknowns} unknowns · {steps} steps");
         }
-        let time = summary["time"].as_f64().unwrap_or_default();
-        match word("stopped") {
-            "failed" => {
-                let failure = &summary["failure"];
-                let cause = failure["cause"].as_str().unwrap_or(word("error"));
-                self.notices.push(Notice::error(format!("The run failed: {cause}")).with_facts(failure));
-            }
-            "interrupted" => {
-                self.notices.push(Notice::warning(format!("The run was interrupted at t = {time} s.")));
-            }
-            _ => {}
-        }
+        self.notices.extend(Notice::of_end(summary));
         let list = |name: &str| summary[name].as_array().into_iter().flatten();
         // Summaries of earlier versions have the texts only.
         let diagnostics = list("diagnostics").chain(std::iter::repeat(&Value::Null));
