@@ -23,6 +23,8 @@ pub enum CommandError {
         /// The reason of the system.
         reason: String,
     },
+    /// Results could not be written to the standard output, for the reason of the system.
+    Output(String),
     /// No browser could be started.
     Browser(String),
 }

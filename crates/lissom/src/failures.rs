@@ -538,6 +538,13 @@ catalogued! {
             meaning: "Another program uses the port of a live page, or it is reserved.",
             advice: "Choose another port by `--port`.",
         }
+        Output { 0 => reason } => "output-cut" {
+            cause: "the standard output is incomplete: {reason}",
+            remedy: "check the disk or device that receives it",
+            meaning: "Results that are printed could not be written, as where a file that receives them is on a full disk. Files of results \
+                      are complete.",
+            advice: "Free space on the disk, or redirect the output to another one.",
+        }
         Browser { 0 => path } => "no-browser" {
             cause: "no browser could be started",
             remedy: "open `{path}` in one",

@@ -130,7 +130,9 @@ pub(crate) struct Line {
 impl Line {
     /// Runs the command line.
     pub(crate) fn run(self) -> ExitCode {
-        let exit = self.command.run().unwrap_or_else(|failure| {
+        let cut = |exit| terminal::cut().map_or(Ok(exit), |error| Err(Failure::new(Exit::Failed, &error)));
+        let result = self.command.run().and_then(cut);
+        let exit = result.unwrap_or_else(|failure| {
             terminal::complain(&failure.words);
             failure.exit
         });

@@ -1,24 +1,38 @@
-//! Output to and input from a terminal: texts, a progress bar, Ctrl-C. Failing output, for example to a closed pipe,
-//! does not stop the program.
+//! Output to and input from a terminal: texts, a progress bar, Ctrl-C. Failing output does not stop the program. It is an error at
+//! the end, unless a pipe was closed.
 
-use std::io::{IsTerminal, Write, stderr, stdout};
-use std::sync::Arc;
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use lissom::Progress;
 use lissom::core::number::written;
+use lissom::{CommandError, Progress};
 
 use super::outcome::Exit;
 
 /// Refresh interval of the progress bar.
 const REFRESH: Duration = Duration::from_millis(50);
 
-/// Writes results.
+/// Why results could not be written to the standard output.
+static CUT: OnceLock<String> = OnceLock::new();
+
+/// Writes results. A failure is an error at the end of the program, see [`cut`].
 pub(crate) fn print(text: &str) {
     let mut out = stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let result = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    // The reader of a pipe, such as `head`, may have enough.
+    if let Err(error) = result
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        let _ = CUT.set(error.to_string());
+    }
+}
+
+/// Why results could not be written to the standard output, if they could not.
+pub(crate) fn cut() -> Option<CommandError> {
+    CUT.get().cloned().map(CommandError::Output)
 }
 
 /// Writes error messages.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{CANTILEVER, Folder, lissom, summary};
+use crate::support::{CANTILEVER, Folder, Run, lissom, summary, wait_for};
 
 const SPINNING: &str = r#"
 lissom = 1
@@ -173,4 +173,42 @@ fn memory_that_will_not_suffice_is_reported() {
     let errors = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(2), "{errors}");
     assert!(errors.contains("memory") && errors.contains("elements"), "{errors}");
+}
+
+/// What is printed is a result, so that a full disk is an error.
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_is_cut_is_an_error() {
+    let folder = Folder::new("output-cut");
+    folder.write("m.toml", &SPINNING.replace("{ file = \"DATA\", columns = [\"time\", \"torque\"] }", "1"));
+    for args in [&["schema"][..], &["completions", "bash"], &["check", "m.toml"], &["run", "m.toml"]] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lissom"));
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let ended = command.args(args).current_dir(folder.path()).stdout(full).output().unwrap();
+        let errors = String::from_utf8(ended.stderr).unwrap();
+        assert_eq!(ended.status.code(), Some(3), "{args:?}: {errors}");
+        assert!(errors.contains("the standard output is incomplete: No space left"), "{args:?}: {errors}");
+    }
+}
+
+#[test]
+fn results_of_a_killed_run_are_shown_with_a_warning() {
+    let folder = Folder::new("killed-run-shown");
+    let text = SPINNING.replace("{ file = \"DATA\", columns = [\"time\", \"torque\"] }", "1");
+    folder.write("m.toml", &text.replace("end = 0.1", "end = 1e5"));
+    let mut run =
+        Run::start(&["run", "m.toml", "--out", "o", "--checkpoint-every", "100steps"], folder.path());
+    let size = |name: &str| fs::metadata(folder.path().join("o").join(name)).map_or(0, |file| file.len());
+    wait_for(|| size("history.csv") > 20_000 && size("motion.bin") > 500 && size("checkpoint.lissom") > 0);
+    run.0.kill().unwrap();
+    run.0.wait().unwrap();
+    for args in [&["view", "o"][..], &["plot", "o"], &["snapshot", "o"], &["export", "o", "--format", "npz"]]
+    {
+        let ended = lissom(args, folder.path());
+        assert_eq!(ended.code, 0, "{args:?}: {}", ended.errors);
+        let words = "warning: `o`: The run is incomplete: it was killed, or is still in progress.";
+        assert!(ended.errors.contains(words), "{args:?}: {}", ended.errors);
+    }
+    let page = fs::read_to_string(folder.path().join("o/view.html")).unwrap();
+    assert!(page.contains("The run is incomplete"));
 }
