@@ -359,7 +359,7 @@ catalogued! {
             advice: "Run the model again.",
         }
         Version { 0 => version } => "motion-version" {
-            cause: "the motion file is of version {version}, but this program reads version {VERSION}",
+            cause: "the motion file is of version {version}, but that of this program is {VERSION}",
             remedy: "run the model again",
             meaning: "A motion was recorded by another version of the program.",
             advice: "Run the model again.",
@@ -369,6 +369,12 @@ catalogued! {
             remedy: "run the model again",
             meaning: "A recorded motion ends before its first frame, has an invalid header, or does not fit the scene beside it.",
             advice: "Run the model again.",
+        }
+        Altered { 0 => frame } => "motion-altered" {
+            cause: "frame {frame} of the motion is not as it was written: its checksum differs",
+            remedy: "run the model again, and check the disk",
+            meaning: "Bytes of a recorded motion have changed since it was written, for example by an incomplete copy or a faulty disk.",
+            advice: "Copy the file again, or run the model again.",
         }
         NotFinite { 0 => frame } => "motion-not-finite" {
             cause: "frame {frame} of the motion contains a number that is not finite",

@@ -139,10 +139,38 @@ fn files_that_are_cut_or_foreign_are_reported() {
     let mut other = bytes.clone();
     other[8] = 9;
     assert_eq!(Motion::from_bytes(&other), Err(MotionError::Version(9)));
-    let mut wrong = bytes;
-    let end = wrong.len();
-    // A time that is no number.
+    // No changed bit is another motion.
+    let mut changed = bytes.clone();
+    for bit in (0..8 * bytes.len()).step_by(641).chain(8 * (bytes.len() - 300)..8 * bytes.len()) {
+        changed[bit / 8] ^= 1 << (bit % 8);
+        assert!(Motion::from_bytes(&changed).is_err(), "bit {bit}");
+        changed[bit / 8] = bytes[bit / 8];
+    }
     let frame = motion.header().frame_bytes;
-    wrong[end - frame..end - frame + 8].copy_from_slice(&f64::NAN.to_le_bytes());
-    assert_eq!(Motion::from_bytes(&wrong), Err(MotionError::NotFinite(whole)));
+    changed[bytes.len() - frame + 12] ^= 1;
+    assert_eq!(Motion::from_bytes(&changed), Err(MotionError::Altered(whole)));
+    let mut earlier = unsealed(&bytes, frame);
+    let read = Motion::from_bytes(&earlier).unwrap();
+    assert_eq!((read.times(), read.reference()), (motion.times(), motion.reference()));
+    assert_eq!(read.frame(whole - 1), motion.frame(whole - 1));
+    // A time that is no number.
+    let end = earlier.len();
+    earlier[end - frame + 8..end - frame + 16].copy_from_slice(&f64::NAN.to_le_bytes());
+    assert_eq!(Motion::from_bytes(&earlier), Err(MotionError::NotFinite(whole)));
+}
+
+/// A motion file as of version 1, without checksums.
+fn unsealed(bytes: &[u8], frame: usize) -> Vec<u8> {
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let header = std::str::from_utf8(&bytes[16..16 + length]).unwrap();
+    let [now, before] = [frame, frame - 8].map(|length| format!("\"frame_bytes\":{length}"));
+    let header = format!("{:length$}", header.trim_end().replace(&now, &before));
+    let nodes = Motion::from_bytes(bytes).unwrap().reference().len();
+    let poses = 16 + length + 56 * nodes;
+    let mut earlier = [&bytes[..8], &[1, 0, 0, 0], &bytes[12..16], header.as_bytes()].concat();
+    earlier.extend(&bytes[16 + length..poses]);
+    for own in bytes[poses + 8..].chunks_exact(frame) {
+        earlier.extend(&own[..frame - 8]);
+    }
+    earlier
 }

@@ -4,7 +4,7 @@ use crate::start::Lowered;
 use lissom_core::kinematics::{Layout, NodeMotion};
 use serde::{Deserialize, Serialize};
 
-use super::{MAGIC, PREFIX, VERSION};
+use super::{CHECKSUM, MAGIC, PREFIX, UNSEALED, VERSION, checksum};
 
 /// Points of a beam at which section forces are recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,7 +42,7 @@ impl Header {
         };
         let force_points: Vec<ForcePoints> = lowered.names.lines.iter().map(points).collect();
         let mut header = Self { nodes, force_points, frame_bytes: 0 };
-        header.frame_bytes = header.needed_bytes();
+        header.frame_bytes = header.needed_bytes(VERSION);
         header
     }
 
@@ -52,15 +52,15 @@ impl Header {
     }
 
     /// Length of a frame with all these data.
-    pub(super) fn needed_bytes(&self) -> usize {
-        (8 + 4 * 6 * (self.nodes.len() + self.point_count())).next_multiple_of(8)
+    pub(super) fn needed_bytes(&self, version: u32) -> usize {
+        8 + 4 * 6 * (self.nodes.len() + self.point_count()) + checksum_bytes(version)
     }
 
     /// All bytes before the first frame.
     pub(super) fn to_bytes(&self, reference: &[NodeMotion]) -> Vec<u8> {
         let mut text = serde_json::to_vec(self).expect("names and numbers can always be written as JSON");
         text.resize(text.len().next_multiple_of(8), b' ');
-        let mut bytes = Vec::with_capacity(PREFIX + text.len() + 56 * reference.len());
+        let mut bytes = Vec::with_capacity(PREFIX + text.len() + 56 * reference.len() + CHECKSUM);
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
         bytes.extend_from_slice(&(text.len() as u32).to_le_bytes());
@@ -69,6 +69,12 @@ impl Header {
             let numbers = node.frame.position.iter().copied().chain(node.frame.rotation.quaternion());
             bytes.extend(numbers.flat_map(f64::to_le_bytes));
         }
+        bytes.extend(checksum(&bytes));
         bytes
     }
+}
+
+/// Length of a checksum in files of a version.
+pub(super) fn checksum_bytes(version: u32) -> usize {
+    if version == UNSEALED { 0 } else { CHECKSUM }
 }

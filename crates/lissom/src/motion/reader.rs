@@ -3,8 +3,8 @@
 use lissom_core::diagnostics::Diagnose;
 use lissom_motion::{Motion as Pose, Rotation, Vector3, Vector6};
 
-use super::header::Header;
-use super::{MAGIC, PREFIX, VERSION};
+use super::header::{Header, checksum_bytes};
+use super::{MAGIC, PREFIX, UNSEALED, VERSION, is_sealed};
 use lissom_core::kinematics::NodeId;
 
 /// Why a file is not a valid motion file.
@@ -18,6 +18,8 @@ pub enum MotionError {
     Version(u32),
     /// It ends before its first frame, or its header is damaged.
     Damaged,
+    /// The bytes of a frame are not those that were written.
+    Altered(usize),
     /// A number is not finite.
     NotFinite(usize),
 }
@@ -38,14 +40,17 @@ impl Motion {
     /// # Errors
     /// If they are not a motion file, or damaged.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, MotionError> {
-        let (header, frames) = Self::split(bytes)?;
-        let reference_bytes = 56 * header.nodes.len();
+        let (header, [poses, frames]) = Self::split(bytes)?;
+        let has_checksums = frames > poses + 56 * header.nodes.len();
         let reference: Option<Vec<Pose>> =
-            bytes[frames - reference_bytes..frames].chunks_exact(56).map(pose).collect();
+            bytes[poses..].chunks_exact(56).take(header.nodes.len()).map(pose).collect();
         let reference = reference.ok_or(MotionError::Damaged)?;
         let per_frame = 6 * (header.nodes.len() + header.point_count());
         let (mut times, mut numbers) = (Vec::new(), Vec::new());
         for (index, frame) in bytes[frames..].chunks_exact(header.frame_bytes).enumerate() {
+            if has_checksums && !is_sealed(frame) {
+                return Err(MotionError::Altered(index + 1));
+            }
             times.push(number(frame));
             let (words, _) = frame[8..8 + 4 * per_frame].as_chunks::<4>();
             numbers.extend(words.iter().map(|word| f32::from_le_bytes(*word)));
@@ -58,24 +63,36 @@ impl Motion {
         Ok(Self { header, reference, times, numbers })
     }
 
-    /// Header, and offset of the frames.
-    fn split(bytes: &[u8]) -> Result<(Header, usize), MotionError> {
+    /// Header, and offsets of the poses of the model and of the frames.
+    fn split(bytes: &[u8]) -> Result<(Header, [usize; 2]), MotionError> {
         if bytes.len() < PREFIX || &bytes[..8] != MAGIC {
             return Err(MotionError::Foreign);
         }
         let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
-        if word(8) != VERSION {
-            return Err(MotionError::Version(word(8)));
+        let version = word(8);
+        if ![VERSION, UNSEALED].contains(&version) {
+            return Err(MotionError::Version(version));
         }
         let end = PREFIX + word(12) as usize;
         let text = bytes.get(PREFIX..end).ok_or(MotionError::Damaged)?;
         let header: Header = serde_json::from_slice(text).map_err(|_| MotionError::Damaged)?;
-        let frames = end + 56 * header.nodes.len();
-        if header.frame_bytes == header.needed_bytes() && frames <= bytes.len() {
-            Ok((header, frames))
+        let frames = end + 56 * header.nodes.len() + checksum_bytes(version);
+        let head = bytes.get(..frames).ok_or(MotionError::Damaged)?;
+        let is_whole = version == UNSEALED || is_sealed(head);
+        if header.frame_bytes == header.needed_bytes(version) && is_whole {
+            Ok((header, [end, frames]))
         } else {
             Err(MotionError::Damaged)
         }
+    }
+
+    /// Time of the last complete frame [s] of a file to which frames are to be appended.
+    ///
+    /// # Errors
+    /// If the bytes are not a motion file of the present version.
+    pub(crate) fn time_to_continue_from(bytes: &[u8]) -> Result<Option<f64>, MotionError> {
+        let is_earlier = bytes.get(8..12) == Some(&UNSEALED.to_le_bytes());
+        if is_earlier { Err(MotionError::Version(UNSEALED)) } else { Self::last_time(bytes) }
     }
 
     /// Time of the last complete frame [s], without reading the others; none without frames.
@@ -83,7 +100,7 @@ impl Motion {
     /// # Errors
     /// If the bytes are not a motion file.
     pub fn last_time(bytes: &[u8]) -> Result<Option<f64>, MotionError> {
-        let (header, frames) = Self::split(bytes)?;
+        let (header, [_, frames]) = Self::split(bytes)?;
         Ok(bytes[frames..].chunks_exact(header.frame_bytes).next_back().map(number))
     }
 

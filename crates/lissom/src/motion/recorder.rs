@@ -14,6 +14,7 @@ use lissom_core::kinematics::{Kinematics, NodeMotion};
 use lissom_core::simulation::Simulation;
 use lissom_core::system::State;
 
+use super::checksum;
 use super::header::{Header, POINTS};
 use crate::run::state_writer::StateWriter;
 
@@ -122,7 +123,7 @@ impl<W: Write + Send> MotionRecorder<W> {
     }
 
     fn frame(&mut self, at: &Kinematics) {
-        let end = self.buffer.len() + self.header.frame_bytes;
+        let begin = self.buffer.len();
         self.buffer.extend_from_slice(&at.time.to_le_bytes());
         let mut put = |numbers: &[f64]| {
             self.buffer.extend(numbers.iter().flat_map(|number| (*number as f32).to_le_bytes()));
@@ -138,7 +139,7 @@ impl<W: Write + Send> MotionRecorder<W> {
                 put(probe.section_forces_at(at, xi).as_slice());
             }
         }
-        self.buffer.resize(end, 0);
+        self.buffer.extend(checksum(&self.buffer[begin..]));
         self.last = Some(at.time);
     }
 

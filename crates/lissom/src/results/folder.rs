@@ -314,7 +314,7 @@ impl ResultFolder {
         let mut file = checkpoint.open_motion(&path)?;
         let unreadable = |error| files::failure(files::Action::Read, &path, error);
         let bytes = files::read(&path).map_err(unreadable)?;
-        let last = Motion::last_time(&bytes)
+        let last = Motion::time_to_continue_from(&bytes)
             .map_err(|error| FolderError::Motion { path: path.display().to_string(), error })?;
         file.seek(SeekFrom::End(0)).map_err(unreadable)?;
         Ok((file, last))
