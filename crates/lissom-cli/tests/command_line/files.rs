@@ -191,6 +191,23 @@ fn output_that_is_cut_is_an_error() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_folder_that_is_replaced_during_the_run_is_an_error() {
+    let folder = Folder::new("folder-replaced");
+    let text = SPINNING.replace("{ file = \"DATA\", columns = [\"time\", \"torque\"] }", "1");
+    folder.write("m.toml", &text.replace("end = 0.1", "end = 4e3"));
+    let run = Run::start(&["run", "m.toml", "--out", "o"], folder.path());
+    let path = |name: &str| folder.path().join(name);
+    wait_for(|| path("o/summary.json").exists());
+    fs::rename(path("o"), path("moved")).unwrap();
+    fs::create_dir(path("o")).unwrap();
+    let ended = run.finish();
+    assert_eq!(ended.code, 3, "{}", ended.errors);
+    assert!(ended.errors.contains("another folder has replaced it during the run"), "{}", ended.errors);
+    assert!(!path("o/summary.json").exists());
+}
+
 #[test]
 fn results_of_a_killed_run_are_shown_with_a_warning() {
     let folder = Folder::new("killed-run-shown");

@@ -2,7 +2,7 @@
 //! simulations.
 
 use lissom_core::diagnostics::Diagnose;
-use std::fs::{File, TryLockError};
+use std::fs::{File, Metadata, TryLockError};
 use std::io::{BufWriter, Error, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -142,6 +142,19 @@ fn lock(path: &Path) -> Result<File, FileError> {
     }
 }
 
+/// Whether two descriptions are of different folders, where the system numbers them.
+fn is_other(one: &Metadata, other: &Metadata) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        (one.dev(), one.ino()) != (other.dev(), other.ino())
+    }
+    #[cfg(not(unix))]
+    {
+        one.is_dir() != other.is_dir()
+    }
+}
+
 /// Protects the results in a folder that a command reads against being overwritten by it.
 pub fn protect_results(folder: &Path) {
     for name in [HISTORY, SUMMARY, MOTION, SCENE, EVENTS, MODES, SHAPES, CAMPBELL] {
@@ -181,6 +194,8 @@ pub struct ResultFolder {
     path: PathBuf,
     /// Locked while a run writes into the folder; the system releases it when the program ends in any way.
     _lock: Option<File>,
+    /// The folder that the run has begun to write to.
+    begun: Option<Metadata>,
 }
 
 impl ResultFolder {
@@ -196,7 +211,7 @@ impl ResultFolder {
             .filter(|entry| is_result(entry))
             .try_for_each(|entry| files::check_target(&entry))?;
         let lock = lock(path)?;
-        Ok(Self { path: path.to_owned(), _lock: Some(lock) })
+        Ok(Self { path: path.to_owned(), _lock: Some(lock), begun: std::fs::metadata(path).ok() })
     }
 
     /// Whether there are earlier results.
@@ -274,7 +289,7 @@ impl ResultFolder {
             }
         }
         let title = summary["title"].as_str().unwrap_or_default().to_owned();
-        Ok((Self { path: path.to_owned(), _lock: None }, record, title))
+        Ok((Self { path: path.to_owned(), _lock: None, begun: None }, record, title))
     }
 
     /// Its path.
@@ -337,7 +352,7 @@ impl ResultFolder {
         checkpoint.open_history(&history)?;
         let lock = lock(path)?;
         let (folder, record, _) = Self::open(path)?;
-        Ok((Self { _lock: Some(lock), ..folder }, record))
+        Ok((Self { _lock: Some(lock), begun: std::fs::metadata(path).ok(), ..folder }, record))
     }
 
     /// A writer that appends to its table.
@@ -378,11 +393,21 @@ impl ResultFolder {
         self.write_table(EVENTS, &format!("time,event\n{rows}"))
     }
 
+    /// Whether another folder has replaced the one that the run has begun to write to.
+    fn is_replaced(&self) -> bool {
+        let present = std::fs::metadata(&self.path).ok();
+        self.begun.as_ref().zip(present.as_ref()).is_some_and(|(begun, present)| is_other(begun, present))
+    }
+
     /// Writes the summary.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// If it cannot be written, or the folder was replaced by another one, in which the other results are not.
     pub fn write_summary(&self, summary: &Summary) -> Result<(), FileError> {
+        if self.is_replaced() {
+            let reason = "another folder has replaced it during the run: the results are where the first one has been moved";
+            return Err(files::failure(files::Action::Write, &self.path, Error::other(reason)));
+        }
         files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())
     }
 
