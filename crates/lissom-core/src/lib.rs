@@ -39,5 +39,5 @@ pub use energy_balance::EnergyBalance;
 
 /// The linear solvers, by name.
 pub mod solvers {
-    pub use lissom_solver::{KINDS, SolverKind, kind};
+    pub use lissom_solver::{KINDS, SolverKind, in_parallel, kind};
 }

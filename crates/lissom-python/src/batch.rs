@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use lissom::core::errors::StepError;
 use lissom::core::interrupt;
 use lissom::core::simulation::InputError;
+use lissom::core::solvers::in_parallel;
 use lissom::{Diagnose, Diagnostic, Prepared, Session, SessionSnapshot, with_code};
 use numpy::ndarray::ArrayViewD;
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyReadonlyArray1};
@@ -82,9 +83,12 @@ impl Batch {
         let first = session()?;
         let start = first.snapshot();
         let names = ColumnNames::of(&first);
-        let others = (1..count).into_par_iter().map(|_| session());
+        let mut others: Vec<Option<PyResult<Session>>> = (1..count).map(|_| None).collect();
+        in_parallel(|scope| {
+            scope.spawn(|_| others.par_iter_mut().for_each(|other| *other = Some(session())));
+        });
         let sessions: Vec<Session> =
-            std::iter::once(Ok(first)).chain(others.collect::<Vec<_>>()).collect::<PyResult<_>>()?;
+            std::iter::once(Ok(first)).chain(others.into_iter().flatten()).collect::<PyResult<_>>()?;
         let member = |session| Member { cached: CachedSession::new(session, None), failure: None };
         let members = Mutex::new(sessions.into_iter().map(member).collect());
         Ok(Self {
@@ -204,7 +208,7 @@ fn each(py: Python<'_>, members: &mut [Member], work: impl Fn(usize, &mut Member
     py.detach(|| {
         let (running, ended) = mpsc::channel::<()>();
         let work = &work;
-        rayon::in_place_scope(|scope| {
+        in_parallel(|scope| {
             let asked_of_work = &cancelled;
             scope.spawn(move |_| {
                 let _running = running;

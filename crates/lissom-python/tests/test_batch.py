@@ -157,3 +157,35 @@ except KeyboardInterrupt:
     child.send_signal(signal.SIGINT)
     output, _ = child.communicate(timeout=30)
     assert output == "interrupted True\n" and child.returncode == 0
+
+
+FORKED = """
+import multiprocessing
+
+import lissom
+
+model = lissom.loads(open("cart.toml").read())
+
+
+def stepped(count: int) -> float:
+    batch = model.simulations(count)
+    batch.step_to(0.5)
+    return float(batch.time[0])
+
+
+if __name__ == "__main__":
+    stepped(3)
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        print(pool.map(stepped, [2, 3, 4, 5]))
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes are forked on Linux")
+def test_forked_processes_have_threads_of_their_own(tmp_path: Any) -> None:
+    """The child of a fork has none of the threads of its parent."""
+    (tmp_path / "cart.toml").write_text(CART)
+    (tmp_path / "forked.py").write_text(FORKED)
+    ended = subprocess.run(
+        [sys.executable, "forked.py"], cwd=tmp_path, timeout=60, capture_output=True, text=True, check=False
+    )
+    assert ended.stdout.strip() == "[0.5, 0.5, 0.5, 0.5]", ended.stderr

@@ -40,6 +40,7 @@ mod singular_values;
 mod skyline;
 mod solver;
 mod structure;
+mod thread_pool;
 
 pub use condition::condition_estimate;
 pub use dense::Dense;
@@ -56,3 +57,4 @@ pub use singular_values::{condition_number, singular_values};
 pub use skyline::Skyline;
 pub use solver::{LinearSolver, SEVERAL};
 pub use structure::{Group, Structure, StructureError};
+pub use thread_pool::in_parallel;

@@ -40,7 +40,7 @@ impl Threads {
             own.fill(0.0);
             work(range, own);
         };
-        rayon::in_place_scope(|scope| {
+        lissom_solver::in_parallel(|scope| {
             let (mut rest, mut from) = (&mut *numbers, 0);
             for thread in 1..=threads {
                 let to = if thread == threads { parts } else { parts * thread / threads / WIDTH * WIDTH };

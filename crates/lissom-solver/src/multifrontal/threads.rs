@@ -48,7 +48,7 @@ pub(super) fn factor<S: Kernels>(
     let (mut rest, diagonal) = numeric.subtrees(symbolic);
     let mut largest = vec![Some(0.0_f64); crews.len()];
     let portion = values.len().div_ceil(crews.len()).max(1);
-    rayon::in_place_scope(|scope| {
+    crate::in_parallel(|scope| {
         let mut portions = values.chunks(portion);
         for (index, (&crew, largest)) in crews.iter().zip(&mut largest).enumerate() {
             let share;
@@ -71,7 +71,7 @@ pub(super) fn factor<S: Kernels>(
 /// Applies `work` to every crew's subtrees, or to all of them if there are no crews.
 pub(super) fn sweep<S: Scalar>(crews: &[usize], all: Sweep<S>, work: impl Fn(Sweep<S>) + Sync) {
     let Some((&last, others)) = crews.split_last() else { return work(all) };
-    rayon::in_place_scope(|scope| {
+    crate::in_parallel(|scope| {
         let mut rest = all;
         for &crew in others {
             let own;
