@@ -287,6 +287,20 @@ mod tests {
         }
     }
 
+    /// Each part has memory of its own.
+    #[test]
+    fn thousands_of_trees_are_few_parts() {
+        let mut model = crate::samples::Model::default();
+        for _ in 0..6000 {
+            let node = model.node();
+            model.element(&[node]);
+        }
+        let solver = Multifrontal::<f64>::new(&model.structure());
+        let parts = solver.symbolic.parts.len();
+        assert!((5..200).contains(&parts), "{parts}");
+        solves::<f64>(&model);
+    }
+
     #[test]
     fn every_level_of_vector_instructions_solves() {
         for model in [chain(300), grid(600)] {

@@ -13,6 +13,9 @@ const WORTH_WHILE: f64 = 4e6;
 /// Number of threads for which the choice is made.
 const THREADS: f64 = 4.0;
 
+/// Whole trees, such as those of thousands of free bodies, are combined to about this number of parts: each part has memory of its own.
+const MAX_TREES: f64 = 64.0;
+
 /// Maximum number of fronts that are moved to the top in search of a better choice.
 const MAX_TOP: usize = 400;
 
@@ -31,14 +34,29 @@ pub(super) fn cut(nodes: Vec<Supernode>) -> Subtrees {
         return Subtrees { nodes, parts: vec![all] };
     }
     let sizes = accumulated(&nodes, |_| 1.0);
+    let times = accumulated(&nodes, |node| node.time);
+    let has_parent = with_parent(&nodes);
+    let share = times.iter().zip(&has_parent).filter(|(_, has)| !**has).map(|(time, _)| time).sum::<f64>()
+        / MAX_TREES;
     let (mut order, mut parts) = (Vec::with_capacity(nodes.len()), Vec::new());
+    // Time of the last part, if it consists of whole trees.
+    let mut trees: Option<f64> = None;
     let mut is_below = vec![false; nodes.len()];
     for &root in &roots {
         let begin = order.len();
         let subtree = root + 1 - sizes[root] as usize..root + 1;
         is_below[subtree.clone()].fill(true);
         order.extend(subtree);
-        parts.push(begin..order.len());
+        let together = trees.filter(|_| !has_parent[root]).map(|time| time + times[root]);
+        match (together.filter(|time| *time <= share), parts.last_mut()) {
+            (Some(time), Some(Range { end, .. })) => {
+                (*end, trees) = (order.len(), Some(time));
+            }
+            _ => {
+                parts.push(begin..order.len());
+                trees = (!has_parent[root]).then_some(times[root]);
+            }
+        }
     }
     let begin = order.len();
     order.extend((0..nodes.len()).filter(|&node| !is_below[node]));
@@ -66,14 +84,20 @@ fn accumulated(nodes: &[Supernode], of: impl Fn(&Supernode) -> f64) -> Vec<f64> 
     sums
 }
 
-/// Roots of the subtrees, ascending. The root of the costliest subtree is moved to the top repeatedly; the division with
-/// the least time is returned.
-fn subtree_roots(nodes: &[Supernode]) -> Vec<usize> {
-    let times = accumulated(nodes, |node| node.time);
+/// Which nodes have a parent.
+fn with_parent(nodes: &[Supernode]) -> Vec<bool> {
     let mut is_child = vec![false; nodes.len()];
     for &child in nodes.iter().flat_map(|node| &node.children) {
         is_child[child] = true;
     }
+    is_child
+}
+
+/// Roots of the subtrees, ascending. The root of the costliest subtree is moved to the top repeatedly; the division with
+/// the least time is returned.
+fn subtree_roots(nodes: &[Supernode]) -> Vec<usize> {
+    let times = accumulated(nodes, |node| node.time);
+    let is_child = with_parent(nodes);
     let mut roots: Vec<usize> = (0..nodes.len()).filter(|&node| !is_child[node]).collect();
     let total: f64 = roots.iter().map(|&root| times[root]).sum();
     let mut best = (0.9 * total, Vec::new());
