@@ -8,6 +8,7 @@ pub use lissom_mechanics::{
     relation, round_off, signals,
 };
 pub use lissom_motion as motion;
+pub use lissom_solver::interrupt;
 pub use lissom_system as system;
 pub use lissom_system::{schemes, solver_features, tuning};
 
@@ -21,7 +22,6 @@ pub mod differentiation;
 mod energy_balance;
 pub mod errors;
 pub(crate) mod integrator;
-pub mod interrupt;
 mod iterate;
 pub(crate) mod judge;
 pub mod linearized;

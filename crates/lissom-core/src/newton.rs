@@ -166,6 +166,12 @@ pub enum Failure {
     Interrupted,
 }
 
+impl From<FactorError> for Failure {
+    fn from(error: FactorError) -> Self {
+        if error == FactorError::Interrupted { Self::Interrupted } else { Self::Factor(error) }
+    }
+}
+
 /// Weight of the last solution in the moving average of the cost.
 const NOVELTY: f64 = 0.05;
 /// A stalled correction below this fraction of the step's increment is round-off [-].
@@ -202,7 +208,7 @@ pub fn solve<E: Equations>(
             return Err(Failure::Interrupted);
         }
         if !jacobian.has_tangent {
-            equations.renew_tangent().map_err(Failure::Factor)?;
+            equations.renew_tangent().map_err(Failure::from)?;
             jacobian.has_tangent = true;
             (jacobian.contraction, jacobian.unseen) = (None, 0);
             outcome.factorizations += 1;
@@ -321,7 +327,7 @@ pub fn descend<D: Descent>(system: &mut D) -> Result<Outcome, Failure> {
             return Err(Failure::NotConverged { iterations, correction });
         }
         if outcome.correction > 1.0 {
-            system.descend().map_err(Failure::Factor)?;
+            system.descend().map_err(Failure::from)?;
             outcome.iterations += 1;
             outcome.factorizations += 1;
         }

@@ -27,6 +27,7 @@ mod condition;
 mod dense;
 mod entries;
 mod extended;
+pub mod interrupt;
 mod kinds;
 mod multifrontal;
 mod ordering;

@@ -61,6 +61,9 @@ pub enum FactorError {
         /// The unknown: column of the entry, or of the pivot.
         unknown: usize,
     },
+    /// It was cancelled, see [`interrupt`](crate::interrupt).
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// Collects the report during elimination.

@@ -109,8 +109,12 @@ impl Run {
     }
 
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        let began = Instant::now();
         let interrupt = Interrupt::listen();
+        interrupt.cancel(|| self.simulate(&interrupt))
+    }
+
+    fn simulate(&self, interrupt: &Interrupt) -> Result<Exit, Failure> {
+        let began = Instant::now();
         let task = self.task()?;
         let document = task.model.document()?;
         let asked = (&task.model, &document);
@@ -125,7 +129,7 @@ impl Run {
             AnalysisKind::Path { .. } => {
                 let wanted =
                     super::path::Wanted { folder: &task.folder, plots: task.plots, quiet: self.quiet };
-                return super::path::run(asked, &wanted, &interrupt);
+                return super::path::run(asked, &wanted, interrupt);
             }
             AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
         }

@@ -7,10 +7,11 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use lissom::core::interrupt;
 use lissom::core::number::written;
 use lissom::{CommandError, Progress};
 
-use super::outcome::Exit;
+use super::outcome::{Exit, Failure};
 
 /// Refresh interval of the progress bar.
 const REFRESH: Duration = Duration::from_millis(50);
@@ -108,6 +109,15 @@ impl Interrupt {
     /// The flag that is set when it is pressed.
     pub(crate) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
+    }
+
+    /// Calls `work`, which ends soon once it is pressed, also within a step; what then fails was interrupted.
+    pub(crate) fn cancel(&self, work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exit, Failure> {
+        let interrupted = |failure: Failure| match failure.exit {
+            Exit::Failed if self.is_noted() => Failure { exit: Exit::Interrupted, ..failure },
+            _ => failure,
+        };
+        interrupt::within(self.flag(), work).map_err(interrupted)
     }
 
     /// Whether it was pressed.

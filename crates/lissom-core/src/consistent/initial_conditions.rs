@@ -13,6 +13,7 @@ use lissom_solver::{FactorError, SolverKind};
 use super::redundancy::Redundancy;
 use crate::errors::InitialError;
 use crate::errors::step_error::pivot_hint;
+use crate::interrupt::Interrupted;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, Quantity};
@@ -132,6 +133,7 @@ impl ConsistentInitialConditions {
             FactorError::NotFinite { unknown } => {
                 InitialError::NotFinite { unknown: layout.subject_of(unknown) }
             }
+            FactorError::Interrupted => InitialError::Interrupted(Interrupted),
         })
     }
 

@@ -169,6 +169,10 @@ diagnostics! {
         Signal(crate::signals::SignalError), (error) => error.diagnostic().within("at the start"),
         /// The places of rest were not found.
         NoEquilibrium(Box<super::StepError>), (error) => error.diagnostic().within("initial equilibrium"),
+        /// It was interrupted.
+        Interrupted(crate::interrupt::Interrupted), (_) => {
+            super::StepError::Interrupted { time: f64::NAN }.diagnostic()
+        },
         /// A beam is turned too far within an element.
         Wrapped(Box<super::StepError>), (error) => error.diagnostic().within("at the start"),
     }

@@ -473,6 +473,6 @@ pub(crate) fn describe(
         Failure::Factor(FactorError::NotFinite { unknown }) => {
             StepError::NotFinite { time, iterations: 0, worst: layout.subject_of(*unknown), hint: SMALLER }
         }
-        Failure::Interrupted => StepError::Interrupted { time },
+        Failure::Factor(FactorError::Interrupted) | Failure::Interrupted => StepError::Interrupted { time },
     }
 }

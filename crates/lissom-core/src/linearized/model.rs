@@ -374,6 +374,7 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
     let (unknown, pivot) = match *error {
         FactorError::ZeroPivot { unknown, pivot, largest } => (unknown, pivot / largest),
         FactorError::NotFinite { unknown } => (unknown, f64::NAN),
+        FactorError::Interrupted => return LinearError::Interrupted(Interrupted),
     };
     LinearError::Factor { time, unknown: system.layout().subject_of(unknown), pivot }
 }

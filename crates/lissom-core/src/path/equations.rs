@@ -508,7 +508,9 @@ impl PathEquations<'_> {
             Failure::Factor(FactorError::NotFinite { unknown }) => {
                 StepError::NotFinite { time, iterations: 0, worst: layout.subject_of(unknown), hint }
             }
-            Failure::Interrupted => StepError::Interrupted { time },
+            Failure::Factor(FactorError::Interrupted) | Failure::Interrupted => {
+                StepError::Interrupted { time }
+            }
         }
     }
 }

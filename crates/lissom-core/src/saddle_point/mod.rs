@@ -196,7 +196,7 @@ impl<M: Matrices> SaddlePoint<M> {
                 report.worst_cancellation_unknown
             }
             Err(FactorError::ZeroPivot { unknown, .. }) => *unknown,
-            Ok(_) | Err(FactorError::NotFinite { .. }) => return None,
+            Ok(_) | Err(FactorError::NotFinite { .. } | FactorError::Interrupted) => return None,
         };
         (unknown >= self.coordinate_count).then_some(unknown)
     }

@@ -151,7 +151,10 @@ fn examine(
 }
 
 fn stopped(layout: &Layout, error: FactorError) -> Stopped {
-    let (FactorError::ZeroPivot { unknown, .. } | FactorError::NotFinite { unknown }) = error;
+    let unknown = match error {
+        FactorError::ZeroPivot { unknown, .. } | FactorError::NotFinite { unknown } => unknown,
+        FactorError::Interrupted => 0,
+    };
     Stopped { unknown: layout.name_of(unknown), error }
 }
 

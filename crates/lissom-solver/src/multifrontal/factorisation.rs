@@ -12,6 +12,7 @@ use super::instances::Kernels;
 use super::kernels::{Product, absolute_products, solve_panel};
 use super::small::{self, SmallFront};
 use super::square::SquareWork;
+use crate::interrupt;
 use crate::pattern::Pattern;
 use crate::report::{FactorError, Monitor};
 use crate::scalar::Scalar;
@@ -221,6 +222,9 @@ impl<S: Scalar> Work<'_, S> {
             let of_front = if const { small::is_for::<S>(FUSED) } && front.is_small() {
                 self.factor_small::<V>(simd, (symbolic, front), values, &mut monitor)?
             } else {
+                if interrupt::is_asked() {
+                    return Err(FactorError::Interrupted);
+                }
                 self.assemble(symbolic, front, values);
                 self.eliminate::<V, FUSED, ROWS>(simd, (symbolic, front), &mut monitor)?
             };

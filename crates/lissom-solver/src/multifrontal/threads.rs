@@ -1,10 +1,13 @@
 //! Parallel work on subtrees. The result of a subtree depends neither on the thread nor on the time, so results are
 //! the same for any number of threads.
 
+use std::sync::Arc;
+
 use super::factorisation::Numeric;
 use super::fronts::{Part, Symbolic};
 use super::instances::{Kernels, Largest};
 use super::sweeps::Sweep;
+use crate::interrupt;
 use crate::scalar::Scalar;
 
 /// Size of the factors [bytes] from which on parallel solves are efficient: a solve takes as long as reading them.
@@ -48,6 +51,7 @@ pub(super) fn factor<S: Kernels>(
     let (mut rest, diagonal) = numeric.subtrees(symbolic);
     let mut largest = vec![Some(0.0_f64); crews.len()];
     let portion = values.len().div_ceil(crews.len()).max(1);
+    let request = interrupt::request();
     crate::in_parallel(|scope| {
         let mut portions = values.chunks(portion);
         for (index, (&crew, largest)) in crews.iter().zip(&mut largest).enumerate() {
@@ -59,7 +63,8 @@ pub(super) fn factor<S: Kernels>(
                 share.factor(processor, symbolic, values, diagonal);
             };
             if index + 1 < crews.len() {
-                scope.spawn(move |_| work());
+                let request = Arc::clone(&request);
+                scope.spawn(move |_| interrupt::within(request, work));
             } else {
                 work();
             }

@@ -33,11 +33,13 @@ mod member;
 mod table;
 
 use lissom_core::diagnostics::Diagnose;
+use lissom_core::interrupt;
 use std::any::Any;
 use std::cell::RefCell;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
@@ -261,7 +263,7 @@ impl Sweep {
         watch: &mut dyn FnMut(usize) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, E> {
         let next = AtomicUsize::new(0);
-        let stopped = AtomicBool::new(false);
+        let stopped = Arc::new(AtomicBool::new(false));
         let (sender, receiver) = mpsc::channel();
         let work = |sender: mpsc::Sender<Vec<MemberOutcome>>| {
             let ended = RefCell::new(Ended { sender, outcomes: Vec::new(), since: Instant::now() });
@@ -273,10 +275,16 @@ impl Sweep {
             while !stopped.load(Ordering::Relaxed) {
                 let Some(&member) = members.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
                 // A defect of the program in one member must not affect the others.
-                let caught = catch_unwind(AssertUnwindSafe(|| self.run_member(member, &mut go_on)));
+                let solve =
+                    || interrupt::within(Arc::clone(&stopped), || self.run_member(member, &mut go_on));
+                let caught = catch_unwind(AssertUnwindSafe(solve));
                 let outcome = caught
                     .unwrap_or_else(|panic| Some(MemberOutcome::defect(member, &words_of(panic.as_ref()))));
                 let Some(outcome) = outcome else { return };
+                // A start that was cancelled has not failed.
+                if outcome.state == MemberState::Failed && stopped.load(Ordering::Relaxed) {
+                    return;
+                }
                 ended.borrow_mut().add(outcome);
             }
         };

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom::analyses::study::{StudyError, Watch};
+use lissom::core::interrupt::within;
 use lissom::model::files;
 use lissom::model::output::LogFigure;
 
@@ -152,13 +153,15 @@ fn watched<T>(
     study: impl FnOnce(Watch<'_>) -> Result<T, StudyError>,
 ) -> Result<T, Failure> {
     let bar = bar();
-    let outcome = study(&|done, planned| {
+    let watch = |done, planned| {
         bar.set_length(planned as u64);
         bar.set_position(done as u64);
         if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
+    };
+    let outcome = within(interrupt.flag(), || study(&watch));
     bar.finish_and_clear();
-    Ok(outcome?)
+    // Starts that were cancelled are no results.
+    Ok(if interrupt.is_noted() { Err(StudyError::Interrupted) } else { outcome }?)
 }
 
 /// A progress bar of the steps of all runs; none in a pipe.

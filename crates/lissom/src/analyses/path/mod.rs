@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use crate::start::{Lowered, lower};
 use lissom_core::errors::Warning;
+use lissom_core::interrupt;
 use lissom_core::path::{BranchChoice, CriticalPoint, EquilibriumPath, Family, PathError, PathSettings};
 use lissom_core::settings::Settings;
 use lissom_core::simulation::equilibrium::at_rest;
@@ -307,7 +308,10 @@ impl PathSession {
             if watch().is_break() {
                 return Ok(ControlFlow::Break(()));
             }
-            let step = self.path.advance()?;
+            let step = match self.path.advance() {
+                Err(_) if interrupt::is_asked() => return Ok(ControlFlow::Break(())),
+                step => step?,
+            };
             report.steps[0] += 1;
             report.steps[1] += step.rejected;
             report.iterations += step.iterations;

@@ -6,6 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
+use lissom_core::interrupt;
+
 /// Number of steps between two calls of the watch.
 const OFTEN: usize = 64;
 
@@ -44,6 +46,7 @@ pub(super) fn in_parallel<T: Send>(count: usize, work: impl Fn(usize) -> T + Syn
     let results: Mutex<Vec<Option<T>>> = Mutex::new((0..count).map(|_| None).collect());
     let next = AtomicUsize::new(0);
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(count);
+    let request = interrupt::request();
     thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
@@ -52,7 +55,7 @@ pub(super) fn in_parallel<T: Send>(count: usize, work: impl Fn(usize) -> T + Syn
                     if index >= count {
                         return;
                     }
-                    let result = work(index);
+                    let result = interrupt::within(request.clone(), || work(index));
                     results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
                 }
             });

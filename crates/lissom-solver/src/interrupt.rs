@@ -1,4 +1,4 @@
-//! Cancels the computation of a thread. Newton's loop, searches for modes and solves at a frequency check whether it is
+//! Cancels the computation of a thread. Factorisations, Newton's loop, searches for modes and solves at a frequency check whether it is
 //! requested, so that every analysis ends soon, regardless of the number of its parts.
 //!
 //! The request is stored per thread instead of being passed from function to function, because analyses would only pass
@@ -31,6 +31,11 @@ impl Drop for Former {
 pub fn within<T>(asked: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     let _former = Former(ASKED.replace(Some(asked)));
     work()
+}
+
+/// The request of this thread, to be passed on to threads that work for it.
+pub fn request() -> Arc<AtomicBool> {
+    ASKED.with_borrow(|asked| asked.clone().unwrap_or_default())
 }
 
 /// Whether cancellation of this thread is requested.
