@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use crate::error::MeshError;
 use crate::fields::{label, quote};
 use crate::mesh::Mesh;
+use crate::set_budget::SetBudget;
 
 /// Sets as indices, and notes.
 type Resolved = (BTreeMap<String, Vec<usize>>, Vec<String>);
@@ -117,6 +118,9 @@ impl Lists {
         ascending.sort_unstable();
         let mut sets: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         let mut missing: BTreeMap<usize, (usize, u64, usize)> = BTreeMap::new();
+        // Number of members that a set had when another one included it. Sets only grow.
+        let mut included: HashMap<(usize, usize), usize> = HashMap::new();
+        let mut budget = SetBudget::of(numbers.len());
         for List { line, set, entry } in &self.entries {
             let members: Vec<usize> = match entry {
                 Entry::Nothing => Vec::new(),
@@ -136,14 +140,18 @@ impl Lists {
                     .map(|(_, index)| *index)
                     .collect(),
                 Entry::Set(name) => {
-                    let known = self.index(name).and_then(|index| sets.get(&index));
-                    known.ok_or_else(|| unknown(*line, what, name))?.iter().copied().collect()
+                    let index = self.index(name).filter(|index| sets.contains_key(index));
+                    let index = index.ok_or_else(|| unknown(*line, what, name))?;
+                    let members = &sets[&index];
+                    let is_known = included.insert((*set, index), members.len()) == Some(members.len());
+                    if is_known { Vec::new() } else { members.iter().copied().collect() }
                 }
                 Entry::NodesOfElements(name) => {
                     let known = element_lists.known(name).and_then(|name| mesh.element_sets.get(name));
                     mesh.nodes_of(known.ok_or_else(|| unknown(*line, "elements", name))?)
                 }
             };
+            budget.spend(*line, members.len())?;
             sets.entry(*set).or_default().extend(members);
         }
         let notes = missing.iter().map(|(set, (line, number, count))| {
@@ -186,6 +194,26 @@ mod tests {
         assert_eq!(sets.len(), 3);
         let note = "line 3: number 71 of the set of nodes `both` is not in the mesh and is left out";
         assert_eq!(notes, [note]);
+    }
+
+    #[test]
+    fn sets_that_name_a_large_one_again_and_again_cost_nothing() {
+        let count = 100_000;
+        let mut lists = Lists::default();
+        lists.add_range(1, "whole", &["1", "100000"]).expect("valid");
+        for line in 0..20_000 {
+            lists.add_line(line, "again", &["whole"]).expect("valid");
+        }
+        lists.add_line(20_000, "whole", &["100001"]).expect("valid");
+        lists.add_line(20_001, "again", &["whole"]).expect("valid");
+        let indices: HashMap<u64, usize> = (0..=count).map(|index| (index as u64 + 1, index)).collect();
+        let (sets, _) = lists.resolve("nodes", &indices, &Mesh::default(), &Lists::default()).expect("valid");
+        assert_eq!(sets["again"].len(), count + 1, "a set that has grown is included again");
+        for line in 0..300 {
+            lists.add_line(line, &format!("copy {line}"), &["whole"]).expect("valid");
+        }
+        let error = lists.resolve("nodes", &indices, &Mesh::default(), &Lists::default()).unwrap_err();
+        assert!(error.to_string().contains("more than 200 times members"), "{error}");
     }
 
     #[test]

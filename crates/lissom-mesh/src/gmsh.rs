@@ -10,6 +10,7 @@ use crate::error::MeshError;
 use crate::fields::{Lines, label, quote, real, whole};
 use crate::gmsh_types::{ElementType, element_type, in_order_of_abaqus};
 use crate::mesh::Mesh;
+use crate::set_budget::SetBudget;
 
 const AS_ASCII: &str =
     "save it in Gmsh as ASCII of version 2 or 4.1 (Mesh.Binary = 0, Mesh.MshFileVersion = 4.1)";
@@ -316,20 +317,29 @@ impl<'a> Reader<'a> {
         let last_line = self.last_line();
         self.draft.connect(last_line)?;
         let (mut node_sets, mut element_sets) = (BTreeMap::new(), BTreeMap::new());
-        let mut names: HashMap<Tag, Vec<String>> = HashMap::new();
+        let mut members: BTreeMap<Tag, [Vec<usize>; 2]> = BTreeMap::new();
         for &(entity, index) in &self.members {
-            let own = names.entry(entity).or_insert_with(|| self.set_names(entity));
-            for name in own {
-                member(&mut element_sets, name).push(index);
-                member(&mut node_sets, name).extend(&self.draft.mesh.elements[index].nodes);
+            let [elements, nodes] = members.entry(entity).or_default();
+            elements.push(index);
+            nodes.extend(&self.draft.mesh.elements[index].nodes);
+        }
+        let has_sets = |entity| self.groups.get(entity).is_some_and(|tags| !tags.is_empty());
+        for (entity, line, numbers) in self.touched.iter().filter(|own| has_sets(&own.0)) {
+            let [_, nodes] = members.entry(*entity).or_default();
+            for &number in numbers {
+                nodes.push(self.draft.node(*line, number)?);
             }
         }
-        for (entity, line, numbers) in &self.touched {
-            let own = names.entry(*entity).or_insert_with(|| self.set_names(*entity));
-            for name in own {
-                for &number in numbers {
-                    member(&mut node_sets, name).push(self.draft.node(*line, number)?);
+        let mut budget = SetBudget::of(self.draft.mesh.positions.len() + self.draft.mesh.elements.len());
+        for (entity, [elements, mut nodes]) in members {
+            nodes.sort_unstable();
+            nodes.dedup();
+            for name in self.set_names(entity) {
+                budget.spend(last_line, elements.len() + nodes.len())?;
+                if !elements.is_empty() {
+                    member(&mut element_sets, &name).extend(&elements);
                 }
+                member(&mut node_sets, &name).extend(&nodes);
             }
         }
         for set in node_sets.values_mut().chain(element_sets.values_mut()) {
@@ -403,6 +413,28 @@ pub(crate) mod tests {
         assert_eq!(mesh.node_sets["left edge"], [0, 1]);
         assert_eq!(mesh.node_sets["point 9"], [4]);
         assert_eq!(mesh.elements[1].number, other.elements[1].number);
+    }
+
+    /// Points on a line with lines between them, all in so many groups.
+    fn grouped(points: usize, groups: usize) -> String {
+        let tags: String = (1..=groups).map(|tag| format!(" {tag}")).collect();
+        let numbers: String = (1..=points).map(|own| format!("{own}\n")).collect();
+        let positions: String = (1..=points).map(|own| format!("{own} 0 0\n")).collect();
+        let lines: String = (1..points).map(|own| format!("{own} {own} {}\n", own + 1)).collect();
+        format!(
+            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 1 0 0\n1 0 0 0 1 0 0 {groups}{tags} 0\n$EndEntities\n\
+             $Nodes\n1 {points} 1 {points}\n1 1 0 {points}\n{numbers}{positions}$EndNodes\n\
+             $Elements\n1 {0} 1 {0}\n1 1 1 {0}\n{lines}$EndElements\n",
+            points - 1
+        )
+    }
+
+    #[test]
+    fn groups_that_multiply_their_members_are_rejected() {
+        let mesh = read(&grouped(3000, 100)).expect("few enough");
+        assert!(mesh.element_sets["curve 100"].len() == 2999 && mesh.node_sets["curve 1"].len() == 3000);
+        let found = message(&grouped(3000, 800));
+        assert!(found.contains("more than 200 times members"), "{found}");
     }
 
     #[test]

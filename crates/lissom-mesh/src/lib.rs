@@ -29,6 +29,7 @@ mod obj;
 mod orientation;
 mod part;
 mod read;
+mod set_budget;
 mod vectors;
 
 pub use error::MeshError;
