@@ -52,11 +52,42 @@ fn included_files_take_the_place_of_their_element() {
         ),
         ("<mujocoinclude><include file='none.xml'/></mujocoinclude>", "`none.xml` is not there"),
         ("<mujocoinclude>", "common/leg.xml: this is no XML"),
+        (
+            "<mujocoinclude><include file='a.xml'><include file='b.xml'/></include></mujocoinclude>",
+            "line 1 of common/leg.xml: <include>: it has content, which would be lost",
+        ),
     ] {
         folder.write("common/leg.xml", text);
         let found = from_file(&path).unwrap_err().message;
         assert!(found.contains(words), "{found}");
     }
+}
+
+#[test]
+fn nesting_beyond_what_readers_bear_is_refused() {
+    let nested = |depth: usize| {
+        let begin = "<body><joint/><inertial mass='1' pos='0 0 0' diaginertia='1 1 1'/>\n".repeat(depth);
+        format!("<mujoco><worldbody>{begin}{}</worldbody></mujoco>", "</body>".repeat(depth))
+    };
+    let found = from_description(&nested(20_000)).unwrap_err().message;
+    assert!(found.contains("<body> is the 501th of elements that contain each other"), "{found}");
+    assert_eq!(from_description(&nested(60)).expect("a robot").joints.len(), 60);
+
+    let folder = Folder::new("nested-includes");
+    folder.write("robot.xml", "<mujoco><include file='0.xml'/></mujoco>");
+    for file in 0..600 {
+        folder.write(&format!("{file}.xml"), &format!("<mujoco><include file='{}.xml'/></mujoco>", file + 1));
+    }
+    let found = from_file(&folder.path().join("robot.xml")).unwrap_err().message;
+    assert!(found.contains("files include each other one in the other"), "{found}");
+}
+
+/// The title of a model is one line.
+#[test]
+fn names_with_ends_of_lines_are_titles_of_one_line() {
+    let robot = from_description(&GRIPPER.replace("name='r'", "name='two&#10;lines'")).expect("a robot");
+    let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+    assert!(text.contains("title = \"two lines\""), "{text}");
 }
 
 const GRIPPER: &str = "<robot name='r'><link name='base'/>

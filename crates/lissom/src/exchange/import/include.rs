@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use lissom_model::files;
 
 use super::ImportError;
-use super::xml::{self, SOURCE, location};
+use super::xml::{self, MAX_DEPTH, SOURCE, location};
 
 /// The text of a description with all included files in it. Processing instructions [`SOURCE`] state where each begins and ends.
 ///
 /// # Errors
-/// If a file cannot be read, is no XML text, or is included twice.
+/// If a file cannot be read, is no XML text, is included twice, or files include each other too deeply.
 pub(super) fn with_included(path: &Path) -> Result<String, ImportError> {
     let text = read(path)?;
     if xml::root_tag(&text)? != "mujoco" {
@@ -21,17 +21,17 @@ pub(super) fn with_included(path: &Path) -> Result<String, ImportError> {
     }
     let main = path.parent().unwrap_or(Path::new(""));
     let mut read_files = vec![path.canonicalize().unwrap_or_else(|_| path.to_owned())];
-    expanded(&text, "", [main, main], &mut read_files)
+    expanded(&text, ("", 0), [main, main], &mut read_files)
 }
 
 fn read(path: &Path) -> Result<String, ImportError> {
     files::read_input_text(path).map_err(|error| ImportError::new(error.to_string()))
 }
 
-/// The text of the file `name` with what it includes.
+/// The text of the file `name` with what it includes; so many files include it one in the other.
 fn expanded(
     text: &str,
-    name: &str,
+    (name, depth): (&str, usize),
     [main, own]: [&Path; 2],
     read_files: &mut Vec<PathBuf>,
 ) -> Result<String, ImportError> {
@@ -48,6 +48,15 @@ fn expanded(
         let of = if name.is_empty() { String::new() } else { format!(" of {name}") };
         let fault =
             |message: String| ImportError::new(format!("{}{of}: <include>: {message}", location(node)));
+        if node.has_children() {
+            let message = "it has content, which would be lost: move the content behind it";
+            return Err(fault(message.to_owned()));
+        }
+        if depth >= MAX_DEPTH {
+            return Err(fault(format!(
+                "{depth} files include each other one in the other: include them side by side"
+            )));
+        }
         let file = node.attribute("file").ok_or_else(|| fault("it has no `file`".to_owned()))?;
         let path = [main, own].map(|folder| folder.join(file)).into_iter().find(|path| path.is_file());
         let path = path.ok_or_else(|| {
@@ -59,8 +68,12 @@ fn expanded(
         }
         read_files.push(known);
         let folder = path.parent().unwrap_or(main);
-        let inner =
-            expanded(&read(&path).map_err(|error| fault(error.message))?, file, [main, folder], read_files)?;
+        let inner = expanded(
+            &read(&path).map_err(|error| fault(error.message))?,
+            (file, depth + 1),
+            [main, folder],
+            read_files,
+        )?;
         let included = xml::parse(&inner)?;
         let root = included.root_element();
         whole.push_str(&text[from..node.range().start]);

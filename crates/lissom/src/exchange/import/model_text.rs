@@ -414,7 +414,7 @@ fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
 }
 
 fn header(robot: &Robot, options: Options, start: &Start) -> String {
-    let title = robot.name.replace('\\', "\\\\").replace('"', "\\\"");
+    let title = robot.name.replace(char::is_control, " ").replace('\\', "\\\\").replace('"', "\\\"");
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = write!(

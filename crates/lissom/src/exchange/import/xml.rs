@@ -6,8 +6,33 @@ use roxmltree::{Document, Node};
 
 use super::ImportError;
 
+/// Largest number of elements that contain an element one in the other, and of files that include each other so. The readers are
+/// recursive.
+pub(super) const MAX_DEPTH: usize = 500;
+
+/// Parses a text.
+///
+/// # Errors
+/// If it is no XML text, or elements are nested more deeply than [`MAX_DEPTH`].
 pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
-    Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))
+    let document =
+        Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))?;
+    let mut depths = Vec::new();
+    for node in document.descendants().filter(Node::is_element) {
+        let around = node.parent_element().map_or(0, |parent| depths[parent.id().get_usize()]);
+        let depth = around + 1;
+        if depth > MAX_DEPTH {
+            let message = format!(
+                "{}: <{}> is the {depth}th of elements that contain each other: at most {MAX_DEPTH} are read",
+                location(node),
+                node.tag_name().name()
+            );
+            return Err(ImportError::new(message));
+        }
+        depths.resize(node.id().get_usize(), 0);
+        depths.push(depth);
+    }
+    Ok(document)
 }
 
 /// Name of the root element.
