@@ -186,7 +186,32 @@ pub(crate) fn parse(text: &str) -> Result<Table, Box<Problem>> {
     if let Some(first) = errors.iter().min_by_key(|error| place(error)) {
         return Err(Box::new(syntax_problem(first.message(), place(first), text)));
     }
-    Ok(table(root.into_inner()))
+    let root = table(root.into_inner());
+    match control_character(&root) {
+        Some((span, sign)) => {
+            let message = format!("the text contains the control character U+{:04X}", u32::from(sign));
+            let help = "remove it: it would change what terminals and other programs show";
+            Err(Box::new(Problem::error(span, message).help(help)))
+        }
+        None => Ok(root),
+    }
+}
+
+/// The first control character of the keys and texts, except for tabs and ends of lines.
+fn control_character(table: &Table) -> Option<(Span, char)> {
+    fn in_value(node: &Node) -> Option<(Span, char)> {
+        match &node.value {
+            Value::Text(text) => in_text(text, node.span),
+            Value::List(list) => list.iter().find_map(in_value),
+            Value::Table(table) => control_character(table),
+            Value::Number(_) | Value::Flag(_) | Value::Date => None,
+        }
+    }
+    fn in_text(text: &str, span: Span) -> Option<(Span, char)> {
+        let sign = text.chars().find(|sign| sign.is_control() && !['\t', '\n', '\r'].contains(sign))?;
+        Some((span, sign))
+    }
+    table.iter().find_map(|(name, entry)| in_text(name, entry.key).or_else(|| in_value(&entry.node)))
 }
 
 fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
