@@ -143,8 +143,7 @@ diagnostics! {
         } => "contact-too-short" {
             time: *time,
             subject: what,
-            cause: ("at t = {time} s {what} {effect} within two steps: such a short contact is not resolved, and its energy may be lost or \
-                    increased"),
+            cause: ("at t = {time} s {what} {effect}, and energy may be lost or increased"),
             remedy: "use steps of at most a fiftieth of the time for which it acts, or set `relative_tolerance` instead of `step`, which ends steps \
                 where it begins",
             meaning: "With fixed steps, a contact with a stop, a one-sided spring or a kink of an expression ends the motion within two steps, \

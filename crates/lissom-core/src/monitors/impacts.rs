@@ -97,8 +97,11 @@ impl Monitor for Impacts {
                     let what = system.name_of_switch(which);
                     // Laws of signals and local loads are no contacts.
                     let is_law = !what.kind.is_empty();
-                    let effect =
-                        if is_law { "ends a motion at a kink or jump" } else { "stops the colliding part" };
+                    let effect = if is_law {
+                        "ends a motion at a kink or jump within two steps: they do not resolve it"
+                    } else {
+                        "stops the colliding part within two steps: such a short contact is not resolved"
+                    };
                     Warning::ContactTooShort { time, what, effect: effect.to_owned() }
                 };
                 Some(known.cloned().unwrap_or_else(reported))
