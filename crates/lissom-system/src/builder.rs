@@ -23,7 +23,7 @@ use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
-use super::{ElementId, JointSlots, System};
+use super::{ElementId, GivenVelocities, JointSlots, System};
 use lissom_mechanics::contact::set::ContactSet;
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass};
@@ -87,6 +87,7 @@ pub struct Builder {
     of_velocities: Vec<usize>,
     coordinate_masses: Vec<CoordinateMass>,
     free_coordinates: Vec<CoordinateId>,
+    given_velocities: GivenVelocities,
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
@@ -126,6 +127,7 @@ impl Builder {
             of_velocities: Vec::new(),
             coordinate_masses: Vec::new(),
             free_coordinates: Vec::new(),
+            given_velocities: GivenVelocities::default(),
             functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
@@ -332,11 +334,13 @@ impl Builder {
                 self.model.add_coordinate(Coordinate {
                     name: format!("{name}.{}", coordinate.name),
                     value: values[k],
-                    rate: rates[k],
+                    rate: rates[k].unwrap_or(0.0),
                     quantity: coordinate.quantity,
                 })
             })
             .collect();
+        let with_rate = coordinates.iter().zip(&rates).filter(|(_, rate)| rate.is_some());
+        self.given_velocities.coordinates.extend(with_rate.map(|(&coordinate, _)| coordinate));
         if let Some(start) = &mut self.start_values {
             start.extend(given.into_iter().map(|(k, value)| (coordinates[k], value)));
         }
@@ -471,6 +475,7 @@ impl Builder {
             feedback,
             readings: Vec::new(),
             beams: ExaminedBeams::default(),
+            given_velocities: self.given_velocities,
             functions: self.functions,
         };
         Ok((system, state))

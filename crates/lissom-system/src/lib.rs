@@ -57,7 +57,7 @@ use lissom_mechanics::joints::latch::Latch;
 use lissom_mechanics::joints::rigid_contact::{NonPenetration, RigidContact};
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, Subject, Switch};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::{Graph, SignalError};
@@ -78,6 +78,8 @@ pub struct System {
     pub coordinate_masses: Vec<CoordinateMass>,
     /// Coordinates of no joint between nodes.
     pub free_coordinates: Vec<CoordinateId>,
+    /// Parts and joint coordinates whose velocity at the start is given, even if it is zero.
+    pub given_velocities: GivenVelocities,
     /// Functions of time of loads, springs and drives, with their description.
     pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.
@@ -96,6 +98,15 @@ pub struct System {
     pub beams: ExaminedBeams,
     /// Parts that touch without elements.
     pub contacts: Arc<ContactSet>,
+}
+
+/// Parts and joint coordinates with a given velocity at the start.
+#[derive(Clone, Debug, Default)]
+pub struct GivenVelocities {
+    /// Nodes of bodies and point masses.
+    pub nodes: Vec<NodeId>,
+    /// Coordinates of joints.
+    pub coordinates: Vec<CoordinateId>,
 }
 
 /// Rows of every joint's local unknowns and equations, and the positions of its local matrix in the tangent.

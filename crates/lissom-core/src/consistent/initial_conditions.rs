@@ -10,6 +10,7 @@
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, SolverKind};
 
+use super::open_trees;
 use super::redundancy::Redundancy;
 use crate::errors::InitialError;
 use crate::errors::step_error::pivot_hint;
@@ -20,7 +21,7 @@ use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, Quantity};
 use crate::round_off;
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
-use crate::system::{Linearization, State, System};
+use crate::system::{GivenVelocities, Linearization, State, System};
 use crate::tuning::MAX_ITERATIONS;
 
 /// Factor of the inertias of parts whose velocity is given beside those that follow them.
@@ -230,17 +231,20 @@ impl ConsistentInitialConditions {
     }
 
     /// Like [`velocities`](Self::velocities), for given velocities of parts and joint coordinates: those that were not given, which
-    /// are zero, follow from them whatever their mass.
+    /// are zero, follow from them whatever their mass. Rates of joints in open trees that nothing determines remain zero.
     ///
     /// # Errors
     /// If constraints are redundant, or a coordinate has neither mass nor constraint.
     pub fn given_velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
-        let is_given = self.given_rows(system, &state.kinematics);
+        let mut is_given = self.given_rows(system, &state.kinematics);
         if is_given.iter().all(|given| *given) || !is_given.contains(&true) {
             if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
                 return Ok(self.project(system, state, &[]));
             }
             return self.velocities(system, state);
+        }
+        for row in open_trees::undetermined(system, &is_given) {
+            is_given[row] = true;
         }
         let factor = |own: &mut Self| {
             own.factor(system, state, Inertias::OfParts)?;
@@ -265,7 +269,7 @@ impl ConsistentInitialConditions {
         Ok(change)
     }
 
-    /// Rows of the nodes and joint coordinates with a given velocity: one that is not zero beside the largest.
+    /// Rows of the nodes and joint coordinates with a given velocity: one that is not zero beside the largest, or that the model has.
     fn given_rows(&self, system: &System, at: &Kinematics) -> Vec<bool> {
         let layout = system.layout();
         let count = layout.coordinate_count();
@@ -279,6 +283,11 @@ impl ConsistentInitialConditions {
         let largest = (0..count).map(speed).fold(0.0, f64::max);
         let is_fast = |row: usize| speed(row) > round_off::GIVEN * largest;
         let mut is_given: Vec<bool> = (0..count).map(is_fast).collect();
+        let GivenVelocities { nodes, coordinates } = &system.given_velocities;
+        let of_nodes = nodes.iter().flat_map(|&node| layout.rows_of_node(node)).filter(|&&row| row != LOCKED);
+        let of_nodes = of_nodes.map(|&row| row as usize);
+        let of_coordinates = coordinates.iter().map(|&coordinate| layout.row_of_coordinate(coordinate));
+        of_nodes.chain(of_coordinates).for_each(|row| is_given[row] = true);
         for rows in &layout.node_rows {
             let own = || rows.iter().filter(|&&row| row != LOCKED).map(|&row| row as usize);
             if own().any(|row| is_given[row]) {

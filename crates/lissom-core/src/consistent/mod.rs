@@ -4,6 +4,7 @@ mod driven_start;
 pub mod initial_conditions;
 pub(crate) mod loops;
 pub mod mobility;
+mod open_trees;
 pub(crate) mod redundancy;
 pub(crate) mod singular_positions;
 

@@ -37,6 +37,9 @@ fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
             let inertia = Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia);
             builder.add_inertia(node, &inertia);
         }
+        if body.velocity.is_some() || body.angular_velocity.is_some() {
+            builder.give_velocity(node);
+        }
         names.nodes.insert(body.name.value.clone(), node);
     }
 }
@@ -52,6 +55,9 @@ fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
         };
         let node = builder.add_node(&mass.name.value, frame, freedoms);
         builder.add_inertia(node, &Inertia::of_rigid_body(mass.mass, &Vector3::zeros(), &Matrix3::zeros()));
+        if mass.velocity.is_some() {
+            builder.give_velocity(node);
+        }
         names.nodes.insert(mass.name.value.clone(), node);
     }
 }

@@ -4,7 +4,7 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Builder, Placement};
 use lissom_mechanics::joints::{AnyJoint, Coordinate};
-use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::{ParameterError, Parameters};
 
@@ -65,6 +65,11 @@ impl Builder {
         self.start_values.get_or_insert_with(Vec::new);
     }
 
+    /// Declares that the velocity of a node at the start is given, even if it is zero.
+    pub fn give_velocity(&mut self, node: NodeId) {
+        self.given_velocities.nodes.push(node);
+    }
+
     /// Coordinates with the values that the assembly has to reach [rad, m].
     pub fn start_values(&self) -> &[(CoordinateId, f64)] {
         self.start_values.as_deref().unwrap_or_default()
@@ -83,14 +88,17 @@ pub(super) fn start_values(
         .collect()
 }
 
-/// The given rates of a joint's coordinates at the start, zero where none is given.
-pub(super) fn start_rates(joint: &dyn AnyJoint, parameters: &Parameters) -> Result<Vec<f64>, ParameterError> {
+/// The given rates of a joint's coordinates at the start.
+pub(super) fn start_rates(
+    joint: &dyn AnyJoint,
+    parameters: &Parameters,
+) -> Result<Vec<Option<f64>>, ParameterError> {
     let rate = |coordinate: &Coordinate| {
         let name = match coordinate.quantity {
             Quantity::Angle => "rate",
             Quantity::Length | Quantity::State => "velocity",
         };
-        if parameters.has(name) { parameters.number(name) } else { Ok(0.0) }
+        parameters.has(name).then(|| parameters.number(name)).transpose()
     };
     joint.coordinates().iter().map(rate).collect()
 }

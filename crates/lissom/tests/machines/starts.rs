@@ -147,3 +147,70 @@ end = 0.5
     let record = run(&statics, &[]);
     assert!((last(&record, "load", "z") - sag).abs() < 1e-9);
 }
+
+/// A body, and a hinge that carries it.
+fn link(name: &str, base: &str, [at, position]: [[f64; 2]; 2], more: &str) -> String {
+    let [[x, y], [u, v]] = [at, position];
+    format!(
+        "[bodies.{name}]\nmass = 1\ninertia = [0.1, 0.1, 0.1]\nposition = [{u}, {v}, 0]\n\
+         [joints.to_{name}]\nkind = \"revolute\"\nbase = \"{base}\"\ntip = \"{name}\"\nat = [{x}, {y}, 0]\naxis = \"z\"\n{more}\n\
+         [outputs.to_{name}]\nkind = \"relative\"\nof = \"to_{name}\"\n"
+    )
+}
+
+const END: &str = "[analysis]\nkind = \"dynamics\"\nend = 0.01\n";
+
+fn rates_at_start<const N: usize>(text: &str, names: [&str; N]) -> [f64; N] {
+    let record = run_without_warnings(text, &[]);
+    names.map(|name| column(&record, name, "rate")[0])
+}
+
+fn assert_near<const N: usize>(found: [f64; N], wanted: [f64; N]) {
+    let error = found.iter().zip(wanted).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    assert!(error < 1e-8, "{found:?} instead of {wanted:?}");
+}
+
+#[test]
+fn joints_of_an_open_tree_without_a_rate_start_at_rest() {
+    let names = ["to_a", "to_b", "to_c"];
+    let chain = |rates: [&str; 3]| {
+        let of = |own: usize| [[own as f64, 0.0], [own as f64 + 0.5, 0.0]];
+        let links = [
+            link("a", "ground", of(0), rates[0]),
+            link("b", "a", of(1), rates[1]),
+            link("c", "b", of(2), rates[2]),
+        ];
+        format!("lissom = 1\n{}{END}", links.concat())
+    };
+    assert_near(rates_at_start(&chain(["", "rate = 3", ""]), names), [0.0, 3.0, 0.0]);
+    assert_near(rates_at_start(&chain(["rate = 2", "rate = 3", ""]), names), [2.0, 3.0, 0.0]);
+    assert_near(rates_at_start(&chain(["", "", "rate = -1"]), names), [0.0, 0.0, -1.0]);
+    // The velocity of the last link determines how the others move: it is kept, and none of them is at rest.
+    let pushed = chain(["", "", ""]).replace(
+        "position = [2.5, 0, 0]",
+        "position = [2.5, 0, 0]\nvelocity = [0, 1, 0]\nangular_velocity = [0, 0, 0]",
+    );
+    let [a, b, c] = rates_at_start(&pushed, names);
+    assert!((a + b + c).abs() < 1e-8 && (2.0 * a + b - 1.0).abs() < 1e-8, "{a} {b} {c}");
+}
+
+/// Five links in a loop have two degrees of freedom.
+#[test]
+fn a_zero_that_is_written_is_given() {
+    let pentagon = |last: &str| {
+        let links = [
+            link("a", "ground", [[0.0, 0.0], [0.0, 0.5]], "rate = 5"),
+            link("b", "a", [[0.0, 1.0], [0.5, 1.4]], ""),
+            link("c", "b", [[1.0, 1.8], [1.5, 1.4]], ""),
+            link("d", "c", [[2.0, 1.0], [2.0, 0.5]], ""),
+        ];
+        let ground = "[joints.last]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"d\"\nat = [2, 0, 0]\naxis = \"z\"\n";
+        let output = "[outputs.last]\nkind = \"relative\"\nof = \"last\"\n";
+        format!("lissom = 1\n{}{ground}{last}\n{output}{END}", links.concat())
+    };
+    assert_near(rates_at_start(&pentagon("rate = 0"), ["to_a", "last"]), [5.0, 0.0]);
+    let [a, last] = rates_at_start(&pentagon(""), ["to_a", "last"]);
+    assert!((a - 5.0).abs() < 1e-8 && last.abs() > 0.1, "{a} {last}");
+    let held = pentagon("").replace("position = [2, 0.5, 0]", "position = [2, 0.5, 0]\nvelocity = [0, 0, 0]");
+    assert_near(rates_at_start(&held, ["to_a", "last"]), [5.0, 0.0]);
+}
