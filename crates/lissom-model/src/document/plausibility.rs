@@ -7,6 +7,7 @@ use super::connections::{Places, part_of};
 use super::{Body, Component, Document, NodeReference};
 use lissom_motion::Vector3;
 
+use crate::outputs::entry::{Output, OutputSource};
 use crate::parts::context::Context;
 use crate::text::report::{Problem, Span};
 
@@ -22,12 +23,14 @@ const GYRATION_TO_EXTENT: f64 = 10.0;
 const MAX_EXTENT: (f64, f64) = (200.0, 20.0);
 /// Distance of a joint from a part that it holds, beyond the extent of all parts by this factor.
 const JOINT_TO_EXTENT: f64 = 5.0;
+/// Distance of a point of an output from its body beyond the body's radius of gyration, by this factor.
+const POINT_TO_GYRATION: f64 = 5.0;
 /// Speeds of a drive that are probably in degrees per second.
 const DEGREES: [f64; 8] = [45.0, 90.0, 180.0, 360.0, 720.0, 1080.0, 1800.0, 3600.0];
 
 /// Warns of what is improbable.
 pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
-    let doubts = [units, inertias, joints, degrees, single_nodes, far_sets]
+    let doubts = [units, inertias, joints, degrees, single_nodes, far_sets, balanced, far_points]
         .into_iter()
         .flat_map(|find| find(document, places));
     for (span, message, help) in doubts {
@@ -192,4 +195,61 @@ fn degrees(document: &Document, _: &Places) -> Vec<Doubt> {
         })
     };
     document.joints.iter().filter_map(doubt).collect()
+}
+
+/// Joints at the centre of mass of a body on which nothing but its weight acts: nothing moves.
+fn balanced(document: &Document, _: &Places) -> Vec<Doubt> {
+    let acts = |other: &Component, joint: &Component, body: &str| {
+        other.name.value != joint.name.value
+            && (other.attachment.nodes.iter().any(|own| part_of(&own.node.value) == body)
+                || other.attachment.joints().contains(&joint.name.value.as_str()))
+    };
+    let doubt = |joint: &Component| {
+        let [base, tip] = joint.attachment.nodes.as_slice() else { return None };
+        let turns = matches!(joint.kind.value.as_str(), "revolute" | "spherical" | "universal");
+        let (NodeReference::Ground, NodeReference::Body(name)) = (&base.node.value, &tip.node.value) else {
+            return None;
+        };
+        let body = document.bodies.iter().find(|body| body.name.value == *name)?;
+        let center = body.position + body.axes * body.center_of_mass;
+        let is_at_center = (tip.at? - center).norm() <= 1e-9 * gyration(body);
+        let starts =
+            joint.parameters.has("rate") || body.angular_velocity.is_some() || body.velocity.is_some();
+        let starts = starts || document.initial.is_some() || !document.initial_of_parts.is_empty();
+        let mut others = document.joints.iter().chain(&document.springs).chain(&document.loads);
+        let is_alone = !others.any(|other| acts(other, joint, name)) && body.solids.is_empty();
+        let is_alone = is_alone && document.local_loads.is_empty() && document.superelements.is_empty();
+        (turns && is_at_center && !starts && is_alone && document.gravity != Vector3::zeros()).then(|| {
+            let message = format!(
+                "joint `{}` is at the centre of mass of `{name}`: its weight has no moment there, so that nothing moves",
+                joint.name.value
+            );
+            (joint.name.span, message, "write the position of the joint, `at`, in global axes".to_owned())
+        })
+    };
+    document.joints.iter().filter_map(doubt).collect()
+}
+
+/// Points of outputs that are far from their body, and would be near it in body axes.
+fn far_points(document: &Document, _: &Places) -> Vec<Doubt> {
+    let doubt = |output: &Output| {
+        let OutputSource::Node { node, point: Some(point) } = &output.source else { return None };
+        let NodeReference::Body(name) = &node.value else { return None };
+        let body = document.bodies.iter().find(|body| body.name.value == *name)?;
+        let reach = POINT_TO_GYRATION * gyration(body);
+        let distance = (point - body.position).norm();
+        (distance > reach && point.norm() <= reach).then(|| {
+            let meant = body.position + body.axes * point;
+            let message = format!(
+                "the point of output `{}` is {distance:.3} m from `{name}`, whose mass is much nearer: it is in global axes",
+                output.name.value
+            );
+            let help = format!(
+                "if body axes are meant, write `point = [{:.6}, {:.6}, {:.6}]`",
+                meant.x, meant.y, meant.z
+            );
+            (node.span, message, help)
+        })
+    };
+    document.outputs.iter().filter_map(doubt).collect()
 }

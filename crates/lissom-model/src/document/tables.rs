@@ -331,7 +331,7 @@ fn output_option(feature: Feature) -> Vec<Key> {
                 "point",
                 Shape::Place,
                 "m",
-                "position at the start of a point fixed to the node; default: the node",
+                "position at the start of a point fixed to the node, global axes; default: the node",
             )]
         }
         Feature::Velocities | Feature::Accelerations | Feature::InternalForces | Feature::Accumulated => {

@@ -62,6 +62,33 @@ fn slips_are_named_with_the_unit_that_is_read() {
     assert!(found.contains("nothing sets the parts in motion"), "{found}");
 }
 
+#[test]
+fn a_hinge_at_the_centre_of_mass_and_points_in_body_axes_are_named() {
+    let flap = "lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.flap]\nmass = 3\ninertia = [0.1, 0.2, 0.1]\nposition = [0, 2, 1]\n\
+        [joints.hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"flap\"\naxis = \"x\"\n\
+        [analysis]\nkind = \"dynamics\"\nend = 1\n";
+    let words = "joint `hinge` is at the centre of mass of `flap`: its weight has no moment there";
+    assert!(warnings(flap).contains(words), "{}", warnings(flap));
+    for (from, to) in [
+        ("axis = \"x\"", "axis = \"x\"\nat = [0, 1.8, 1]"),
+        ("axis = \"x\"", "axis = \"x\"\nrate = 3"),
+        ("gravity = [0, 0, -9.81]", ""),
+        ("[analysis]", "[loads.push]\nkind = \"force\"\non = \"flap\"\nvector = [0, 0, 1]\n[analysis]"),
+    ] {
+        assert_eq!(warnings(&flap.replacen(from, to, 1)), "", "{to}");
+    }
+    let output = |point: &str| {
+        let entry = format!("[outputs.tip]\nkind = \"position\"\nof = \"flap\"\npoint = {point}\n[analysis]");
+        warnings(
+            &flap.replace("[analysis]", &entry).replace("axis = \"x\"", "axis = \"x\"\nat = [0, 1.8, 1]"),
+        )
+    };
+    assert_eq!(output("[0, 2.3, 1]"), "");
+    let found = output("[0, 0.3, 0]");
+    assert!(found.contains("the point of output `tip` is 1.972 m from `flap`"), "{found}");
+    assert!(found.contains("write `point = [0.000000, 2.300000, 1.000000]`"), "{found}");
+}
+
 /// A four-bar linkage with one hinge across the others moves nowhere, without violating anything.
 #[test]
 fn a_wrong_axis_in_a_loop_is_named() {

@@ -25,7 +25,7 @@ class Position(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node, global axes; default: the node [m]; a position, or nothing.
         plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
@@ -46,7 +46,7 @@ class Displacement(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node, global axes; default: the node [m]; a position, or nothing.
         plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
@@ -139,7 +139,7 @@ class Velocity(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node, global axes; default: the node [m]; a position, or nothing.
         plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
@@ -159,7 +159,7 @@ class Distance(Output):
     Args:
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
-        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node, global axes; default: the node [m]; a position, or nothing.
         plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 
@@ -198,7 +198,7 @@ class Acceleration(Output):
         of: the node, such as "beam@0.5"; a node.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node, global axes; default: the node [m]; a position, or nothing.
         plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
     """
 

@@ -360,7 +360,7 @@ keys! {
 
 keys! {
     [Position, Displacement, Velocity, Distance, Acceleration]
-    /// Position at the start of a point fixed to the node; default: the node \[m\].
+    /// Position at the start of a point fixed to the node, global axes; default: the node \[m\].
     point: [f64; 3] = "point";
 }
 
