@@ -196,7 +196,7 @@ fn output_that_is_cut_is_an_error() {
 fn a_folder_that_is_replaced_during_the_run_is_an_error() {
     let folder = Folder::new("folder-replaced");
     let text = SPINNING.replace("{ file = \"DATA\", columns = [\"time\", \"torque\"] }", "1");
-    folder.write("m.toml", &text.replace("end = 0.1", "end = 4e3"));
+    folder.write("m.toml", &text.replace("end = 0.1", "end = 2e3"));
     let run = Run::start(&["run", "m.toml", "--out", "o"], folder.path());
     let path = |name: &str| folder.path().join(name);
     wait_for(|| path("o/summary.json").exists());

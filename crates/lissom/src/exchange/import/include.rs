@@ -8,7 +8,10 @@ use std::path::{Path, PathBuf};
 use lissom_model::files;
 
 use super::ImportError;
-use super::xml::{self, MAX_DEPTH, SOURCE, location};
+use super::xml::{self, SOURCE, location};
+
+/// Largest number of files that include each other one in the other.
+const MAX_INCLUDED: usize = 50;
 
 /// The text of a description with all included files in it. Processing instructions [`SOURCE`] state where each begins and ends.
 ///
@@ -52,7 +55,7 @@ fn expanded(
             let message = "it has content, which would be lost: move the content behind it";
             return Err(fault(message.to_owned()));
         }
-        if depth >= MAX_DEPTH {
+        if depth >= MAX_INCLUDED {
             return Err(fault(format!(
                 "{depth} files include each other one in the other: include them side by side"
             )));

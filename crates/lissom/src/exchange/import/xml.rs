@@ -6,33 +6,61 @@ use roxmltree::{Document, Node};
 
 use super::ImportError;
 
-/// Largest number of elements that contain an element one in the other, and of files that include each other so. The readers are
-/// recursive.
-pub(super) const MAX_DEPTH: usize = 500;
+/// Largest number of elements that contain each other one in the other: the readers are recursive.
+const MAX_DEPTH: usize = 300;
 
 /// Parses a text.
 ///
 /// # Errors
 /// If it is no XML text, or elements are nested more deeply than [`MAX_DEPTH`].
 pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
-    let document =
-        Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))?;
-    let mut depths = Vec::new();
-    for node in document.descendants().filter(Node::is_element) {
-        let around = node.parent_element().map_or(0, |parent| depths[parent.id().get_usize()]);
-        let depth = around + 1;
-        if depth > MAX_DEPTH {
-            let message = format!(
-                "{}: <{}> is the {depth}th of elements that contain each other: at most {MAX_DEPTH} are read",
-                location(node),
-                node.tag_name().name()
-            );
-            return Err(ImportError::new(message));
-        }
-        depths.resize(node.id().get_usize(), 0);
-        depths.push(depth);
+    if let Some(at) = too_deep(text) {
+        let line = 1 + text[..at].matches('\n').count();
+        let message =
+            format!("line {line}: more than {MAX_DEPTH} elements contain each other one in the other");
+        return Err(ImportError::new(message));
     }
-    Ok(document)
+    Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))
+}
+
+/// Where the first tag begins that is nested more deeply than [`MAX_DEPTH`], by a scan of the text: parsers are recursive, too.
+fn too_deep(text: &str) -> Option<usize> {
+    let (mut depth, mut from) = (0_usize, 0);
+    while let Some(at) = text[from..].find('<').map(|at| from + at) {
+        let tag = &text[at..];
+        let end = match tag {
+            _ if tag.starts_with("<!--") => tag.find("-->"),
+            _ if tag.starts_with("<![CDATA[") => tag.find("]]>"),
+            _ => end_of_tag(tag),
+        };
+        // What does not end is reported by the parser.
+        let end = at + end?;
+        match tag.as_bytes().get(1) {
+            Some(b'!' | b'?') => {}
+            Some(b'/') => depth = depth.saturating_sub(1),
+            _ if text[..end].ends_with('/') => {}
+            _ => depth += 1,
+        }
+        if depth > MAX_DEPTH {
+            return Some(at);
+        }
+        from = end;
+    }
+    None
+}
+
+/// Position of the end of a tag, outside of the values of its attributes.
+fn end_of_tag(tag: &str) -> Option<usize> {
+    let mut quote = None;
+    tag.char_indices().find_map(|(at, sign)| {
+        match (quote, sign) {
+            (None, '>') => return Some(at),
+            (None, '"' | '\'') => quote = Some(sign),
+            (Some(open), _) if open == sign => quote = None,
+            _ => {}
+        }
+        None
+    })
 }
 
 /// Name of the root element.
