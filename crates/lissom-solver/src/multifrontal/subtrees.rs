@@ -38,7 +38,7 @@ pub(super) fn cut(nodes: Vec<Supernode>) -> Subtrees {
     let has_parent = with_parent(&nodes);
     let share = times.iter().zip(&has_parent).filter(|(_, has)| !**has).map(|(time, _)| time).sum::<f64>()
         / MAX_TREES;
-    let (mut order, mut parts) = (Vec::with_capacity(nodes.len()), Vec::new());
+    let (mut order, mut parts) = (Vec::with_capacity(nodes.len()), Vec::<Range<usize>>::new());
     // Time of the last part, if it consists of whole trees.
     let mut trees: Option<f64> = None;
     let mut is_below = vec![false; nodes.len()];
@@ -48,14 +48,11 @@ pub(super) fn cut(nodes: Vec<Supernode>) -> Subtrees {
         is_below[subtree.clone()].fill(true);
         order.extend(subtree);
         let together = trees.filter(|_| !has_parent[root]).map(|time| time + times[root]);
-        match (together.filter(|time| *time <= share), parts.last_mut()) {
-            (Some(time), Some(Range { end, .. })) => {
-                (*end, trees) = (order.len(), Some(time));
-            }
-            _ => {
-                parts.push(begin..order.len());
-                trees = (!has_parent[root]).then_some(times[root]);
-            }
+        if let (Some(time), Some(last)) = (together.filter(|time| *time <= share), parts.last_mut()) {
+            (last.end, trees) = (order.len(), Some(time));
+        } else {
+            parts.push(begin..order.len());
+            trees = (!has_parent[root]).then_some(times[root]);
         }
     }
     let begin = order.len();
