@@ -285,3 +285,120 @@ fn series_hold_forces_and_stresses_of_shells() {
     // The other one is not loaded.
     assert!((32..36).all(|cell| top[cell] == 0.0 && forces[3 * cell] == 0.0));
 }
+
+/// A sheet of irregular triangles of 1 m x 0.5 m x 10 mm, which is pulled with 10 kN/m along x and 4 kN/m along y.
+const PULLED: &str = r#"
+lissom = 1
+[materials.stiff]
+E = 70e9
+nu = 0
+density = 2700
+[shells.sheet]
+mesh = "sheet.obj"
+thickness = 0.01
+material = "stiff"
+[shells.sheet.sets]
+west = { from = [-0.001, -1, -1], to = [0.001, 1, 1] }
+east = { from = [0.999, -1, -1], to = [1.001, 1, 1] }
+south = { from = [-1, -0.001, -1], to = [2, 0.001, 1] }
+north = { from = [-1, 0.499, -1], to = [2, 0.501, 1] }
+corner = { near = [0, 0, 0] }
+first = { near = [0.28, 0.2, 0] }
+second = { near = [0.77, 0.29, 0] }
+third = { near = [0.5, 0.21, 0] }
+[joints]
+x = { kind = "generic", base = "ground", tip = "sheet.west", locked = ["x"] }
+y = { kind = "generic", base = "ground", tip = "sheet.south", locked = ["y"] }
+z = { kind = "generic", base = "ground", tip = "sheet.corner", locked = ["z", "rx", "ry"] }
+[loads]
+east = { kind = "force", on = "sheet.east", vector = [5000, 0, 0] }
+north = { kind = "force", on = "sheet.north", vector = [0, 4000, 0] }
+[outputs]
+s1 = { kind = "shell_stress", of = "sheet.first" }
+s2 = { kind = "shell_stress", of = "sheet.second" }
+s3 = { kind = "shell_stress", of = "sheet.third" }
+n1 = { kind = "shell_force", of = "sheet.first" }
+n2 = { kind = "shell_force", of = "sheet.second" }
+n3 = { kind = "shell_force", of = "sheet.third" }
+[analysis]
+kind = "statics"
+end = 1
+steps = 1
+"#;
+
+/// Two rows of four cells, each divided along either diagonal; the corner at which a triangle begins varies.
+fn triangles() -> String {
+    let mut text = String::new();
+    for j in 0..3 {
+        for i in 0..5 {
+            let is_inside = j == 1 && (1..4).contains(&i);
+            let shift = [[0.03, -0.05], [0.0, -0.04], [0.02, 0.04]][(i + 2) % 3];
+            let [x, y] = [0, 1]
+                .map(|k| [0.25 * i as f64, 0.25 * j as f64][k] + if is_inside { shift[k] } else { 0.0 });
+            text += &format!("v {x} {y} 0\n");
+        }
+    }
+    let node = |i: usize, j: usize| 5 * j + i + 1;
+    for (cell, (i, j)) in (0..8).map(|k| (k, (k % 4, k / 4))) {
+        let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+        let halves = if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+        for (half, mut corners) in halves.into_iter().enumerate() {
+            corners.rotate_left((cell + half) % 3);
+            text += &format!("f {} {} {}\n", corners[0], corners[1], corners[2]);
+        }
+    }
+    text
+}
+
+#[test]
+fn table_picture_and_series_have_the_same_stresses_on_triangles() {
+    let folder = Folder::new("shell-triangles");
+    folder.write("sheet.obj", &triangles());
+    folder.write("sheet.toml", PULLED);
+    let run = lissom(&["run", "sheet.toml", "--out", "out", "-q"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let table = fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let value = |name: &str| -> f64 {
+        let column = rows[0].iter().position(|own| own.starts_with(name));
+        let column = column.unwrap_or_else(|| panic!("{name} in {:?}", rows[0]));
+        rows.last().unwrap()[column].parse().unwrap()
+    };
+    // 10 and 4 N/mm on 10 mm, up to the strain.
+    for node in 1..4 {
+        for (of, expected) in [("top11", 1e6), ("bottom22", 0.4e6), ("top12", 0.0), ("error", 0.0)] {
+            let found = value(&format!("s{node}.{of}"));
+            assert!((found - expected).abs() < 30.0, "{node} {of} {found}");
+        }
+        for (of, expected) in [("n11", 1e4), ("n22", 4e3), ("n12", 0.0)] {
+            let found = value(&format!("n{node}.{of}"));
+            assert!((found - expected).abs() < 0.3, "{node} {of} {found}");
+        }
+    }
+    let expected = value("s2.mises_top");
+    // 1 - 0.4 + 0.16.
+    assert!(close(expected, 1e6 * 0.76_f64.sqrt(), 3e-5), "{expected}");
+    let recorded = ResultFolder::recorded(&folder.path().join("out")).unwrap();
+    let at = at_rest(&poses_at(&recorded.motion, 1.0).unwrap());
+    let sheet = ShellElements::new(&recorded.scene.shells[0]);
+    for element in 0..sheet.count() {
+        let resultants = sheet.resultants(element, &at, (0.0, 0.0));
+        let found = sheet.von_mises(element, &resultants, Layer::Top).unwrap();
+        assert!(close(found, expected, 1e-2), "picture: {element} {found}");
+    }
+    assert_eq!(lissom(&["export", "out", "--format", "vtk"], folder.path()).code, 0);
+    let grid = fs::read_to_string(folder.path().join("out/vtk/motion-0001.vtu")).unwrap();
+    let floats = |name: &str| -> Vec<f64> {
+        let bytes = series_content(&grid, name);
+        bytes.chunks(4).map(|chunk| f64::from(f32::from_le_bytes(chunk.try_into().unwrap()))).collect()
+    };
+    let (forces, axes) = (floats("N11, N22, N12 [N/m]"), floats("local axis 1"));
+    for element in 0..sheet.count() {
+        let own = &forces[3 * element..][..3];
+        assert!(
+            close(own[0], 1e4, 1e-2) && close(own[1], 4e3, 1e-2) && own[2].abs() < 50.0,
+            "{element} {own:?}"
+        );
+        assert!((axes[3 * element] - 1.0).abs() < 1e-5, "{element}");
+    }
+}

@@ -149,7 +149,7 @@ pub(super) fn keys() -> Vec<Key> {
             "direction",
             Shape::Direction,
             "",
-            "projected on the surface, the first local axis, from which angles of plies count; default that of each element",
+            "projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh",
         ),
         optional(
             "fold_angle",
@@ -769,6 +769,14 @@ fn check(reader: &Reader<'_, '_>, shell: &Shell, is_patch: bool) -> Option<()> {
                 centre.z
             );
             return context.fail(reader.name, message, "check `corners`, `surface` or the mesh there");
+        }
+        let is_across = |given: &Vector3| given.cross(&normal).norm() < 1.8e-3 * given.norm() * normal.norm();
+        if let (Some(node), true) =
+            (reader.node("direction"), shell.direction.as_ref().is_some_and(is_across))
+        {
+            let message = format!("`direction` of {} is normal to its element {}", reader.what, index + 1);
+            let help = "choose a direction that has a projection on every element, or divide the shell";
+            return context.fail(node.span, message, help);
         }
     }
     if is_patch {

@@ -44,7 +44,8 @@ pub(super) fn add(
                 elements: &shell.mesh.elements,
                 normals: shell.mesh.normals.as_deref(),
                 fold_angle: shell.fold_angle,
-                direction: shell.direction,
+                // Elements of a mesh have no common direction of their own.
+                direction: shell.direction.or(shell.mesh.places.is_none().then(Vector3::x)),
                 damping: shell.damping,
                 section: &|element| ShellSection::laminate(&shell.plies(element), shell.offset),
             },

@@ -1,10 +1,15 @@
-//! Forces, moments and stresses of shells at their nodes: those at the Gauss points of the elements, extrapolated to the node, and their mean
-//! over its elements by area. Where elements differ at a node, the mean has an error of about this difference.
+//! Forces, moments and stresses of shells at their nodes: those at the Gauss points of the elements, extrapolated to the node, turned into
+//! the axes of the node, and their mean over its elements by area. Where elements differ at a node, the mean has an error of about this
+//! difference.
+//!
+//! Legend: n mean normal of the elements at the node, a mean of their first axes projected on the surface, R the smallest rotation from n to the
+//! normal of an element. The first axis of the node in this element is R a.
 
 use std::sync::Arc;
 
 use lissom_mechanics::elements::shell::Shell;
 use lissom_mechanics::elements::shell::section::{Ply, von_mises};
+use lissom_motion::Vector3;
 use lissom_system::System;
 
 use super::frames::node_of;
@@ -22,7 +27,7 @@ const OF_ELEMENTS: &str = "it is the mean over the elements at the node";
 /// Registry entry.
 pub(crate) const SHELL_FORCE: Declaration = Declaration {
     word: "shell_force",
-    summary: "Forces per length in a shell, local axes: in the surface and across it.",
+    summary: "Forces per length in a shell, local axes of the node: in the surface and across it.",
     subject: Subject::ShellNode,
     features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[("n11", "N/m"), ("n22", "N/m"), ("n12", "N/m"), ("q13", "N/m"), ("q23", "N/m")],
@@ -31,7 +36,7 @@ pub(crate) const SHELL_FORCE: Declaration = Declaration {
 /// Registry entry.
 pub(crate) const SHELL_MOMENT: Declaration = Declaration {
     word: "shell_moment",
-    summary: "Bending moments and torsion per length in a shell, local axes; positive where the side of the normal is in tension.",
+    summary: "Bending moments and torsion per length in a shell, local axes of the node; positive where the side of the normal is in tension.",
     subject: Subject::ShellNode,
     features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[("m11", "N"), ("m22", "N"), ("m12", "N")],
@@ -40,7 +45,7 @@ pub(crate) const SHELL_MOMENT: Declaration = Declaration {
 /// Registry entry.
 pub(crate) const SHELL_STRESS: Declaration = Declaration {
     word: "shell_stress",
-    summary: "Stresses at both faces of a shell, local axes, von Mises stresses at the faces and in the middle, and an estimate of their error.",
+    summary: "Stresses at both faces of a shell, local axes of the node, von Mises stresses at the faces and in the middle, and an estimate of their error.",
     subject: Subject::ShellNode,
     features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[
@@ -75,6 +80,8 @@ struct Corner {
     offset: f64,
     /// Its share in the mean.
     share: f64,
+    /// Cosine and sine of the angle from its first axis to that of the node.
+    turn: [f64; 2],
 }
 
 struct OfShell {
@@ -98,6 +105,7 @@ fn of(output: &Output, subjects: &Subjects<'_>, what: What) -> Found {
     for corner in &mut corners {
         corner.share /= whole;
     }
+    align(&mut corners);
     Ok(Arc::new(OfShell { corners, what }))
 }
 
@@ -107,14 +115,56 @@ impl BuiltShell {
         let of = |(index, element): (usize, &[usize; 4])| {
             let at = element.iter().position(|&own| own == node)?;
             let (element, plies) = (Arc::clone(&self.surface.elements[index]), self.plies_of(index));
-            Some(Corner { share: element.area(), element, at, plies, offset: self.offset })
+            Some(Corner { share: element.area(), element, at, plies, offset: self.offset, turn: [1.0, 0.0] })
         };
         self.mesh.elements.iter().enumerate().filter_map(of).collect()
     }
 }
 
+/// Sets the angles from the axes of the elements to common ones.
+fn align(corners: &mut [Corner]) {
+    let axes: Vec<[Vector3; 2]> =
+        corners.iter().map(|corner| corner.element.axes_at_corner(corner.at)).collect();
+    let mean = |k: usize| {
+        let sum: Vector3 = corners.iter().zip(&axes).map(|(corner, axes)| corner.share * axes[k]).sum();
+        sum.try_normalize(1e-3).unwrap_or(axes[0][k])
+    };
+    let normal = mean(1);
+    let along = mean(0);
+    let along = (along - normal * along.dot(&normal)).try_normalize(1e-3).unwrap_or(axes[0][0]);
+    for (corner, [first, own]) in corners.iter_mut().zip(&axes) {
+        // The smallest rotation from n to m: a - (a·m) (n + m)/(1 + n·m) for a perpendicular to n.
+        let fold = 1.0 + normal.dot(own);
+        let turned = if fold > 1e-6 { along - (normal + own) * (along.dot(own) / fold) } else { along };
+        let second = own.cross(first);
+        let (x, y) = (turned.dot(first), turned.dot(&second));
+        corner.turn = [x / x.hypot(y), y / x.hypot(y)];
+    }
+}
+
 impl Corner {
-    /// Stresses 11, 22, 12 at the top, in the middle and at the bottom.
+    /// Components 11, 22, 12 in the axes of the node.
+    fn tensor(&self, [a, b, shear]: [f64; 3]) -> [f64; 3] {
+        let [c, s] = self.turn;
+        let twice = 2.0 * c * s * shear;
+        [
+            c * c * a + s * s * b + twice,
+            s * s * a + c * c * b - twice,
+            c * s * (b - a) + (c * c - s * s) * shear,
+        ]
+    }
+
+    /// Forces and moments per length in the axes of the node, as those of the element.
+    fn resultants(&self, strains: &[f64; 8]) -> [f64; 8] {
+        let law = &self.element.law().stiffness;
+        let own: [f64; 8] = std::array::from_fn(|k| (0..8).map(|j| law[(k, j)] * strains[j]).sum());
+        let [n11, n22, n12, m11, m22, m12, q13, q23] = own;
+        let ([n11, n22, n12], [m11, m22, m12]) = (self.tensor([n11, n22, n12]), self.tensor([m11, m22, m12]));
+        let [c, s] = self.turn;
+        [n11, n22, n12, m11, m22, m12, c * q13 + s * q23, c * q23 - s * q13]
+    }
+
+    /// Stresses 11, 22, 12 at the top, in the middle and at the bottom, in the axes of the node.
     fn stresses(&self, strains: &[f64; 8]) -> [[f64; 3]; 3] {
         let Self { plies, offset, .. } = self;
         let half = 0.5 * plies.iter().map(|ply| ply.thickness).sum::<f64>();
@@ -122,7 +172,7 @@ impl Corner {
         places.map(|(ply, height)| {
             let (stiffness, height) = (plies[ply].in_plane(), offset + height);
             let stretched = |j: usize| strains[j] + height * strains[3 + j];
-            std::array::from_fn(|k| (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum())
+            self.tensor(std::array::from_fn(|k| (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum()))
         })
     }
 }
@@ -139,10 +189,8 @@ impl OutputQuantity for OfShell {
         let resultants = || {
             let mut sums = [0.0; 8];
             for corner in &self.corners {
-                let (strains, law) = (strains(corner), &corner.element.law().stiffness);
-                for (k, sum) in sums.iter_mut().enumerate() {
-                    *sum += corner.share * (0..8).map(|j| law[(k, j)] * strains[j]).sum::<f64>();
-                }
+                let own = corner.resultants(&strains(corner));
+                sums.iter_mut().zip(own).for_each(|(sum, value)| *sum += corner.share * value);
             }
             sums
         };

@@ -132,6 +132,13 @@ impl Shell {
     }
 
     /// The normals of the surface that its nodes carry, in the axes of the nodes.
+    /// First local axis and normal of the element at a corner, global axes in the stress-free state.
+    pub fn axes_at_corner(&self, corner: usize) -> [Vector3; 2] {
+        let (r, s) = quadrilateral::CORNERS[corner];
+        let axes = self.reference.axes(r, s);
+        [axes.first, axes.normal]
+    }
+
     pub fn directors(&self) -> [Vector3; NODES] {
         std::array::from_fn(|i| self.numbers.director(i, 2).into())
     }

@@ -5,6 +5,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::quadrilateral::{CORNERS, bilinear};
 
+/// Sine of the angle to the normal, 0.1 degrees, below which a direction has no projection on the surface.
+const PARALLEL: f64 = 1.745e-3;
+
 /// Positions of an element's four nodes, global axes.
 #[derive(Clone, Debug)]
 pub(super) struct Reference {
@@ -16,6 +19,7 @@ pub(super) struct Reference {
 /// Local axes and the map from r and s to lengths along them at a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocalAxes {
+    pub(super) first: Vector3,
     pub(super) normal: Vector3,
     /// `J[α][i] = g_α · a_i`.
     pub(super) jacobian: Matrix2<f64>,
@@ -24,13 +28,17 @@ pub(super) struct LocalAxes {
 }
 
 impl Reference {
-    /// Four positions; `direction` is projected on the surface to be the first local axis. Without one it bisects the
-    /// element's mean directions, so that it does not depend on the node with which the element begins by more than quarter turns.
+    /// Four positions; `direction` is projected on the surface to be the first local axis, and the global z axis where it is within 0.1
+    /// degrees of the normal. Without one it bisects the element's mean directions, so that it does not depend on the node with which
+    /// the element begins by more than quarter turns.
     pub(super) fn new(positions: [Vector3; 4], direction: Option<Vector3>) -> Self {
         let mut own = Self { positions, first: Vector3::x() };
         let [along, across] = own.tangents(0.0, 0.0).map(|tangent| tangent.normalize());
         let bisector = (along + across).normalize() + (along - across).normalize();
-        own.first = direction.unwrap_or(bisector);
+        let normal = along.cross(&across).normalize();
+        own.first = direction.map_or(bisector, |given| {
+            if given.cross(&normal).norm() > PARALLEL * given.norm() { given } else { Vector3::z() }
+        });
         own
     }
 
@@ -50,7 +58,7 @@ impl Reference {
         let second = normal.cross(&first);
         let jacobian =
             Matrix2::new(along.dot(&first), along.dot(&second), across.dot(&first), across.dot(&second));
-        LocalAxes { normal, jacobian, area }
+        LocalAxes { first, normal, jacobian, area }
     }
 
     /// Unit normal at each node.

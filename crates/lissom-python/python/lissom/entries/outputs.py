@@ -251,7 +251,7 @@ class SectionMoment(Output):
 
 @dataclass(kw_only=True, slots=True)
 class ShellForce(Output):
-    """Forces per length in a shell, local axes: in the surface and across it.
+    """Forces per length in a shell, local axes of the node: in the surface and across it.
 
     Args:
         of: the node of a shell, such as "panel@0.5,1"; a node.
@@ -270,7 +270,7 @@ class ShellForce(Output):
 
 @dataclass(kw_only=True, slots=True)
 class ShellMoment(Output):
-    """Bending moments and torsion per length in a shell, local axes; positive where the side of the normal is in tension.
+    """Bending moments and torsion per length in a shell, local axes of the node; positive where the side of the normal is in tension.
 
     Args:
         of: the node of a shell, such as "panel@0.5,1"; a node.
@@ -289,7 +289,7 @@ class ShellMoment(Output):
 
 @dataclass(kw_only=True, slots=True)
 class ShellStress(Output):
-    """Stresses at both faces of a shell, local axes, von Mises stresses at the faces and in the middle, and an estimate of their error.
+    """Stresses at both faces of a shell, local axes of the node, von Mises stresses at the faces and in the middle, and an estimate of their error.
 
     Args:
         of: the node of a shell, such as "panel@0.5,1"; a node.

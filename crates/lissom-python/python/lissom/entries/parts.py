@@ -64,7 +64,7 @@ class Shell(Entry):
         offset: place of the middle of the thickness along the normal of the surface; default 0 [m]; a number, or nothing.
         damping: damping in proportion to the stiffness; default 0 [s]; a number ≥ 0, or nothing.
         plies: layers of a laminate from the bottom to the top of the normal; a list of layers, or nothing.
-        direction: projected on the surface, the first local axis, from which angles of plies count; default that of each element; a direction, or nothing.
+        direction: projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh; a direction, or nothing.
         fold_angle: largest angle between elements of a mesh that count as one smooth surface; default 0.52 [rad]; a number from 0 to 3.2, or nothing.
         pressure: force per area along the normal, which it follows: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
         force_per_area: in global axes, fixed in direction: three numbers or expressions of u, v and t [Pa]; three expressions of `u`, `v` and `t`, or nothing.

@@ -129,7 +129,7 @@ entry! {
 }
 
 entry! {
-    /// Forces per length in a shell, local axes: in the surface and across it.
+    /// Forces per length in a shell, local axes of the node: in the surface and across it.
     ShellForce => OutputId, "shell_force";
     ["kind" = "shell_force"]
     /// With what must be given.
@@ -139,7 +139,7 @@ entry! {
 }
 
 entry! {
-    /// Bending moments and torsion per length in a shell, local axes; positive where the side of the normal is in tension.
+    /// Bending moments and torsion per length in a shell, local axes of the node; positive where the side of the normal is in tension.
     ShellMoment => OutputId, "shell_moment";
     ["kind" = "shell_moment"]
     /// With what must be given.
@@ -149,7 +149,7 @@ entry! {
 }
 
 entry! {
-    /// Stresses at both faces of a shell, local axes, von Mises stresses at the faces and in the middle, and an estimate of their error.
+    /// Stresses at both faces of a shell, local axes of the node, von Mises stresses at the faces and in the middle, and an estimate of their error.
     ShellStress => OutputId, "shell_stress";
     ["kind" = "shell_stress"]
     /// With what must be given.

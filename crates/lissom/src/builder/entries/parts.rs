@@ -65,7 +65,7 @@ entry! {
     offset: f64 = "offset";
     /// Damping in proportion to the stiffness; default 0 \[s\].
     damping: f64 = "damping";
-    /// Projected on the surface, the first local axis, from which angles of plies count; default that of each element.
+    /// Projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh.
     direction: [f64; 3] = "direction";
     /// Largest angle between elements of a mesh that count as one smooth surface; default 0.52 \[rad\].
     fold_angle: f64 = "fold_angle";
