@@ -3,11 +3,13 @@
 
 use std::sync::Arc;
 
+use lissom_core::elements::inertia::Gravity;
+use lissom_core::elements::mass_distribution::MassDistribution;
 use lissom_core::elements::shell::Shell;
 use lissom_core::elements::shell::damping::ShellDamping;
 use lissom_core::elements::shell::pressure::Pressure;
 use lissom_core::elements::shell::section::{Ply, ShellLaw};
-use lissom_core::elements::{Element, Tangents};
+use lissom_core::elements::{Element, OwnInertia, Tangents};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};
@@ -128,4 +130,51 @@ fn a_rigid_motion_changes_nothing() {
     let (one, other) = (forces(&here), forces(&there));
     let largest = one.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
     assert!(one.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-13 * largest), "{one:?}\n{other:?}");
+}
+
+/// A mass matrix on points beside the nodes.
+fn distribution(nodes: [NodeId; 4], random: &mut Random) -> MassDistribution<4, 6> {
+    let points = std::array::from_fn(|k| (k % 4, random.vector()));
+    let mut matrix = Box::new([[0.0; 6]; 6]);
+    for i in 0..6 {
+        for j in 0..=i {
+            let entry = random.number();
+            (matrix[i][j], matrix[j][i]) = (entry, entry);
+        }
+    }
+    let gravity = Gravity { acceleration: random.vector(), factor: Some(Arc::new(Wave)) };
+    MassDistribution::new(nodes, points, matrix, &std::array::from_fn(|_| random.number()), gravity)
+}
+
+#[test]
+fn tangents_of_a_mass_distribution_are_the_derivatives_of_its_forces() {
+    let mut random = Random::new(11);
+    let mut builder = Builder::new();
+    let nodes =
+        std::array::from_fn(|i| builder.add_node(&format!("node {i}"), random.motion(), Freedoms::Full));
+    builder.add_element(distribution(nodes, &mut random));
+    let (system, state) = builder.build(0.0).expect("valid");
+    check("distribution of mass", &system, &state, 0.4, &mut random);
+}
+
+/// The kinetic energy is that of the mass matrix, which is the derivative of the forces by the accelerations.
+#[test]
+fn a_mass_distribution_has_one_mass_matrix() {
+    let mut random = Random::new(12);
+    let mut builder = Builder::new();
+    let nodes =
+        std::array::from_fn(|i| builder.add_node(&format!("node {i}"), random.motion(), Freedoms::Full));
+    let element = distribution(nodes, &mut random);
+    let (system, state) = builder.build(0.0).expect("valid");
+    let at = Configuration::random(&system, &state, 0.3, &mut random).at;
+    let (mut matrix, mut tangents) = (Vec::new(), Tangents::new(24));
+    element.mass(&at, &mut matrix);
+    element.linearize(&at, &mut tangents);
+    assert!(matrix.iter().zip(&tangents.mass).all(|(one, other)| (one - other).abs() < 1e-14));
+    let rates: Vec<f64> = element.unknowns().rates(&at).collect();
+    let matrix = DMatrix::from_row_slice(24, 24, &matrix);
+    let rates = nalgebra::DVector::from_vec(rates);
+    let expected = 0.5 * rates.dot(&(&matrix * &rates));
+    let found = element.energy(&at).kinetic;
+    assert!((found - expected).abs() < 1e-13 * expected.abs().max(1.0), "{found}, {expected}");
 }

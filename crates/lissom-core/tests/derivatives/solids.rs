@@ -195,12 +195,18 @@ fn forces_of_an_element_that_is_turned_inside_out_are_no_numbers() {
 }
 
 #[test]
-fn shares_of_nodes_are_positive_masses_and_areas_of_a_uniform_load() {
-    let mut random = Random::new(12);
-    let masses = tetrahedron_shares(&positions(tetrahedron_node, &mut random)).expect("valid");
-    assert!(masses.iter().all(|mass| *mass > 0.0));
-    let masses = hexahedron_shares(&std::array::from_fn(|i| hexahedron_node(i).into())).expect("valid");
-    assert!((masses.iter().sum::<f64>() - 8.0).abs() < 1e-13 && masses.iter().all(|mass| *mass > 0.0));
+fn shares_of_nodes_are_volumes_and_areas_of_a_uniform_load() {
+    let regular = std::array::from_fn(|i| tetrahedron_node(i).into());
+    let volumes = tetrahedron_shares(&regular).expect("valid");
+    for (i, share) in volumes.iter().enumerate() {
+        let expected = if i < 4 { -1.0 / 20.0 } else { 1.0 / 5.0 } / 6.0;
+        assert!((share - expected).abs() < 1e-14, "{volumes:?}");
+    }
+    let volumes = hexahedron_shares(&std::array::from_fn(|i| hexahedron_node(i).into())).expect("valid");
+    for (i, share) in volumes.iter().enumerate() {
+        let expected = if i < 8 { -1.0 } else { 4.0 / 3.0 };
+        assert!((share - expected).abs() < 1e-13, "{volumes:?}");
+    }
     let mirrored = std::array::from_fn(|i| -Vector3::from(hexahedron_node(i)));
     assert!(hexahedron_shares(&mirrored).is_err());
     // Corners have a negative share in a square, and none in a triangle.

@@ -28,6 +28,7 @@ pub mod latch;
 mod law_of_distance;
 mod least_distance;
 pub mod local_load;
+pub mod mass_distribution;
 pub mod moment;
 pub mod nearest_contact;
 pub(crate) mod point_spring;

@@ -51,6 +51,56 @@ fn a_plate_in_free_flight_keeps_its_momenta() {
     }
 }
 
+/// A plate of one element has the energy and the momenta of a rigid plate: ω·J ω/2 with J = m/12 (b² + h², a² + h², a² + b²). The spin about
+/// the normal has a share of 1e-3 of h² besides.
+#[test]
+fn a_plate_of_one_element_spins_as_a_rigid_one() {
+    let (mass, spin) = (7800.0 * 0.6 * 0.3 * 0.02, [5.0, 3.0, 8.0]);
+    let [a, b, h] = [0.6_f64, 0.3, 0.02].map(|size| mass * size * size / 12.0);
+    let inertia = [b + h, a + h, a + b + 1e-3 * h];
+    let thick = FREE.replace("thickness = 0.002", "thickness = 0.02");
+    for (divisions, offset) in [("[1, 1]", 0.0), ("[2, 1]", 0.0), ("[1, 1]", 0.05)] {
+        let text = thick
+            .replace("[6, 3]", divisions)
+            .replace("material = \"steel\"", &format!("material = \"steel\"\noffset = {offset}"));
+        let text = text.replace("about = [0.3, 0.15, 0]", &format!("about = [0.3, 0.15, {offset}]"));
+        let record = run(&text, &[("analysis.end", "1e-3")]);
+        let kinetic = column(&record, "energy", "kinetic")[0];
+        let expected = 0.5 * (mass * 14.0 + (0..3).map(|k| inertia[k] * spin[k] * spin[k]).sum::<f64>());
+        assert!((kinetic / expected - 1.0).abs() < 1e-10, "{divisions}: {kinetic}, {expected}");
+        // About the origin: m c × v + J ω.
+        let (center, velocity) = ([0.3, 0.15, offset], [1.0, 2.0, 3.0]);
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let orbit = mass * (center[i] * velocity[j] - center[j] * velocity[i]);
+            let found = column(&record, "momentum", &format!("l{}", k + 1))[0];
+            let expected = orbit + inertia[k] * spin[k];
+            assert!((found - expected).abs() < 1e-10 * mass, "{divisions} l{}: {found}, {expected}", k + 1);
+        }
+    }
+}
+
+/// Torsion of a clamped panel: CalculiX finds 210.1 Hz with 20 x 4 elements S8R of second order.
+#[test]
+fn torsion_of_a_narrow_panel_converges_from_above() {
+    use lissom::Model;
+    use lissom::analyses::modes::{ModeRequest, modes};
+    let frequency = |across: usize| {
+        let text = format!(
+            "lissom = 1\n[materials.m]\nE = 70e9\nnu = 0.3\ndensity = 2700\n[shells.s]\n\
+             corners = [[0, 0, 0], [0.4, 0, 0], [0.4, 0.1, 0], [0, 0.1, 0]]\ndivisions = [20, {across}]\nthickness = 0.005\nmaterial = \"m\"\n\
+             [joints.c]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"s.west\"\n[analysis]\nkind = \"modes\"\n"
+        );
+        let request = ModeRequest { count: Some(3), ..ModeRequest::default() };
+        let found = modes(&Model::from_text("model.toml", &text), &request).expect("modes");
+        let twist = |mode: &lissom::core::linearized::Mode| mode.frequency;
+        found.modes.iter().map(twist).find(|own| (190.0..230.0).contains(own)).expect("a mode of torsion")
+    };
+    let found = [1, 2, 4].map(frequency);
+    assert!(found.windows(2).all(|pair| pair[0] > pair[1]), "{found:?}");
+    assert!((found[0] / 208.5 - 1.0).abs() < 0.06 && (found[2] / 208.5 - 1.0).abs() < 0.01, "{found:?}");
+}
+
 /// With strains that are integrated from their rates the energy never rises, whatever the step.
 #[test]
 fn the_energy_decaying_scheme_gains_none_with_large_steps() {

@@ -54,6 +54,28 @@ fn a_block_in_free_flight_keeps_its_momenta() {
     }
 }
 
+/// A bar of one element has the energy and the momenta of a rigid one.
+#[test]
+fn a_block_of_one_element_spins_as_a_rigid_one() {
+    let (mass, spin) = (1000.0 * 0.6 * 0.2 * 0.1, [5.0, 3.0, 8.0]);
+    let [a, b, c] = [0.6_f64, 0.2, 0.1].map(|size| mass * size * size / 12.0);
+    let inertia = [b + c, a + c, a + b];
+    for divisions in ["[1, 1, 1]", "[3, 1, 2]"] {
+        let record = run(&FREE.replace("[3, 1, 1]", divisions), &[("analysis.end", "1e-3")]);
+        let kinetic = column(&record, "energy", "kinetic")[0];
+        let expected = 0.5 * (mass * 14.0 + (0..3).map(|k| inertia[k] * spin[k] * spin[k]).sum::<f64>());
+        assert!((kinetic / expected - 1.0).abs() < 1e-12, "{divisions}: {kinetic}, {expected}");
+        let (center, velocity) = ([0.3, 0.1, 0.05], [1.0, 2.0, 3.0]);
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let orbit = mass * (center[i] * velocity[j] - center[j] * velocity[i]);
+            let found = column(&record, "momentum", &format!("l{}", k + 1))[0];
+            let expected = orbit + inertia[k] * spin[k];
+            assert!((found - expected).abs() < 1e-12 * mass, "{divisions} l{}: {found}, {expected}", k + 1);
+        }
+    }
+}
+
 /// Whatever the step and the law.
 #[test]
 fn the_energy_decaying_scheme_gains_none_with_large_steps() {

@@ -1,4 +1,4 @@
-//! Four-node shell with six unknowns per node: elastic forces. Its inertia is that of its nodes, see `surface`.
+//! Four-node shell with six unknowns per node: elastic forces. Its inertia is added by `surface`.
 //!
 //! Strains are those of a surface with directors: Green-Lagrange membrane strains, curvatures and transverse shear from products of
 //! positions and of vectors that the nodes carry, drilling by a weak spring on the skew part in the plane. 18 natural strains, for 24
@@ -18,6 +18,7 @@ pub mod damping;
 mod forces;
 mod interpolation;
 mod linearize;
+mod mass;
 pub mod pressure;
 mod quadrilateral;
 mod reference;
@@ -131,7 +132,6 @@ impl Shell {
         self.reference.first
     }
 
-    /// The normals of the surface that its nodes carry, in the axes of the nodes.
     /// First local axis and normal of the element at a corner, global axes in the stress-free state.
     pub fn axes_at_corner(&self, corner: usize) -> [Vector3; 2] {
         let (r, s) = quadrilateral::CORNERS[corner];
@@ -139,6 +139,7 @@ impl Shell {
         [axes.first, axes.normal]
     }
 
+    /// The normals of the surface that its nodes carry, in the axes of the nodes.
     pub fn directors(&self) -> [Vector3; NODES] {
         std::array::from_fn(|i| self.numbers.director(i, 2).into())
     }

@@ -1,17 +1,18 @@
-//! A surface of shell elements: nodes, elements and the nodes' shares of the mass, from a mesh of quadrilaterals.
+//! A surface of shell elements: nodes, elements and mass, from a mesh of quadrilaterals.
 
 use std::sync::Arc;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 
-use super::Shell;
 use super::condensed::areas;
 use super::damping::ShellDamping;
 use super::reference::Reference;
-use super::section::{Ply, ShellLaw};
+use super::section::{DRILLING_SHARE, Ply, ShellLaw};
+use super::{Shell, mass};
 use crate::elements::contribution::Contribution;
 use crate::elements::inertia::Inertia;
 use crate::elements::initial_model::InitialModel;
+use crate::elements::mass_distribution::MassDistribution;
 use crate::kinematics::{Freedoms, NodeId};
 
 /// Law and mass of an element.
@@ -96,16 +97,32 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
     let mut elements = Vec::with_capacity(references.len());
     for (index, own) in surface.elements.iter().enumerate() {
         let section = (surface.section)(index);
-        for (i, (&node, area)) in own.iter().zip(areas(&references[index]).iter()).enumerate() {
+        let element_nodes = own.map(|node| nodes[node]);
+        let centers = directors[index].map(|director| section.center * director);
+        let shares = areas(&references[index]);
+        for (i, (&node, area)) in own.iter().zip(shares.iter()).enumerate() {
             own_areas[node] += area;
-            let center = section.center * frames[node].rotation.apply_inverse(&directors[index][i]);
-            // Equal about all axes, also about the normal: no fast rotation about it, and no moment of a rotating node.
-            let inertia = Matrix3::from_diagonal_element(section.inertia * area);
+            let [center, director] =
+                [centers[i], directors[index][i]].map(|own| frames[node].rotation.apply_inverse(&own));
+            // Rotation about the normal has a share that makes its vibrations as fast as those of transverse shear.
+            let across = Matrix3::identity() - (1.0 - DRILLING_SHARE) * director * director.transpose();
+            let inertia = section.inertia * *area * across;
             let mass = Inertia::of_rigid_body(section.mass * area, &center, &inertia);
             contribution.add_inertia(nodes[node], mass);
         }
+        let (carriers, carried) = (mass::nodes(), mass::points(&references[index].positions, &centers));
+        let points = std::array::from_fn(|k| {
+            let node = carriers[k];
+            (node, frames[own[node]].rotation.apply_inverse(&carried[k]))
+        });
+        let mut matrix = mass::area_matrix(&references[index]);
+        matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry *= section.mass);
+        let lumped = std::array::from_fn(|i| section.mass * shares[i]);
+        let gravity = model.gravity.clone();
+        contribution =
+            contribution.with(MassDistribution::new(element_nodes, points, matrix, &lumped, gravity));
         let shell = Shell::new(
-            own.map(|node| nodes[node]),
+            element_nodes,
             &own.map(|node| frames[node]),
             &directors[index],
             surface.direction,

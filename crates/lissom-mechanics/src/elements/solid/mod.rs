@@ -1,5 +1,5 @@
 //! Solid elements of second order whose nodes have positions only: tetrahedra with ten nodes and hexahedra with twenty. Elastic forces;
-//! their inertia is that of their nodes, see `volume`.
+//! their inertia is added by `volume`.
 //!
 //! Legend: x_I position of node I, G_I derivative of its function with respect to the position at rest, w volume of a point of
 //! quadrature, P first Piola-Kirchhoff stress, see `law`.

@@ -66,20 +66,27 @@ impl<const NODES: usize, const POINTS: usize> Reference<NODES, POINTS> {
     }
 }
 
-/// Shares of the nodes in the mass of an element of density 1 [m³]: proportional to the integrals of the squares of their functions, all
-/// greater than zero [Hinton, Rock and Zienkiewicz 1976].
-pub(super) fn lumped_volumes<const NODES: usize>(
+/// The integrals of products of two functions: mass matrix of an element of density 1 [m³].
+pub(super) fn mass_matrix<const NODES: usize>(
     positions: &[Vector3; NODES],
     functions: fn(Natural) -> Functions<NODES>,
     points: &[(Natural, f64)],
-) -> Result<[f64; NODES], Inverted> {
-    let (mut squares, mut whole) = ([0.0; NODES], 0.0);
+) -> Result<Box<[[f64; NODES]; NODES]>, Inverted> {
+    let mut matrix = Box::new([[0.0; NODES]; NODES]);
     for &(place, weight) in points {
         let functions = functions(place);
         let volume = weight * gradients(&functions, positions)?.1;
-        whole += volume;
-        squares.iter_mut().zip(functions.values).for_each(|(sum, value)| *sum += volume * value * value);
+        for (row, value) in matrix.iter_mut().zip(functions.values) {
+            row.iter_mut().zip(functions.values).for_each(|(sum, other)| *sum += volume * value * other);
+        }
     }
-    let factor = whole / squares.iter().sum::<f64>();
-    Ok(squares.map(|square| factor * square))
+    Ok(matrix)
+}
+
+/// Lumped masses from a mass matrix, all greater than zero: proportional to its diagonal [Hinton, Rock and Zienkiewicz 1976].
+pub(super) fn lumped<const NODES: usize>(matrix: &[[f64; NODES]; NODES]) -> [f64; NODES] {
+    let whole: f64 = matrix.as_flattened().iter().sum();
+    let diagonal: [f64; NODES] = std::array::from_fn(|i| matrix[i][i]);
+    let factor = whole / diagonal.iter().sum::<f64>();
+    diagonal.map(|own| factor * own)
 }

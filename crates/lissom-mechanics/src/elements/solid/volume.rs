@@ -5,11 +5,12 @@ use std::sync::Arc;
 use lissom_motion::{Matrix3, Motion, Vector3};
 
 use super::law::SolidLaw;
-use super::reference::lumped_volumes;
+use super::reference::{lumped, mass_matrix};
 use super::{Hexahedron, Inverted, Tetrahedron, shape};
 use crate::elements::contribution::Contribution;
 use crate::elements::inertia::Inertia;
 use crate::elements::initial_model::InitialModel;
+use crate::elements::mass_distribution::MassDistribution;
 use crate::kinematics::{Freedoms, NodeId};
 
 /// Description of a body of solid elements.
@@ -39,13 +40,13 @@ pub struct SolidVolume {
     pub hexahedra: Vec<Arc<Hexahedron>>,
 }
 
-/// Volumes of the nodes of a tetrahedron [m³]: their shares of its mass.
+/// Shares of the nodes in a force per volume on a tetrahedron: the integrals of their functions [m³]. Those of corners are negative.
 ///
 /// # Errors
 /// If it is inverted somewhere.
 pub fn tetrahedron_shares(positions: &[Vector3; 10]) -> Result<[f64; 10], Inverted> {
     super::Reference::new(positions, shape::tetrahedron, shape::tetrahedron_points())?;
-    lumped_volumes(positions, shape::tetrahedron, &shape::tetrahedron_fine())
+    Ok(mass_matrix(positions, shape::tetrahedron, &shape::tetrahedron_fine())?.map(|row| row.iter().sum()))
 }
 
 /// The same of a hexahedron.
@@ -54,7 +55,7 @@ pub fn tetrahedron_shares(positions: &[Vector3; 10]) -> Result<[f64; 10], Invert
 /// If it is inverted somewhere.
 pub fn hexahedron_shares(positions: &[Vector3; 20]) -> Result<[f64; 20], Inverted> {
     super::Reference::new(positions, shape::hexahedron, shape::hexahedron_points())?;
-    lumped_volumes(positions, shape::hexahedron, &shape::hexahedron_fine())
+    Ok(mass_matrix(positions, shape::hexahedron, &shape::hexahedron_fine())?.map(|row| row.iter().sum()))
 }
 
 /// A body of solid elements.
@@ -71,27 +72,37 @@ pub fn solid_volume(
         contribution.add_node(&(volume.names)(node), Motion::translation(*position), Freedoms::Translations)
     };
     let nodes: Vec<NodeId> = positions.iter().enumerate().map(add_node).collect();
-    let mut volumes = vec![0.0; nodes.len()];
     let (mut tetrahedra, mut hexahedra) = (Vec::new(), Vec::new());
     for own in volume.tetrahedra {
         let places = own.map(|node| positions[node]);
-        let element = Tetrahedron::new(own.map(|node| nodes[node]), &places, volume.law)?;
-        let shares = tetrahedron_shares(&places)?;
-        own.iter().zip(shares).for_each(|(&node, share)| volumes[node] += share);
+        let element_nodes = own.map(|node| nodes[node]);
+        let element = Tetrahedron::new(element_nodes, &places, volume.law)?;
         tetrahedra.push(Arc::new(element.clone()));
-        contribution = contribution.with(element);
+        let volumes = mass_matrix(&places, shape::tetrahedron, &shape::tetrahedron_fine())?;
+        contribution = with_mass(contribution.with(element), element_nodes, volumes, (model, volume.density));
     }
     for own in volume.hexahedra {
         let places = own.map(|node| positions[node]);
-        let element = Hexahedron::new(own.map(|node| nodes[node]), &places, volume.law)?;
-        let shares = hexahedron_shares(&places)?;
-        own.iter().zip(shares).for_each(|(&node, share)| volumes[node] += share);
+        let element_nodes = own.map(|node| nodes[node]);
+        let element = Hexahedron::new(element_nodes, &places, volume.law)?;
         hexahedra.push(Arc::new(element.clone()));
-        contribution = contribution.with(element);
-    }
-    for (&node, own) in nodes.iter().zip(volumes) {
-        let mass = Inertia::of_rigid_body(volume.density * own, &Vector3::zeros(), &Matrix3::zeros());
-        contribution.add_inertia(node, mass);
+        let volumes = mass_matrix(&places, shape::hexahedron, &shape::hexahedron_fine())?;
+        contribution = with_mass(contribution.with(element), element_nodes, volumes, (model, volume.density));
     }
     Ok((contribution, SolidVolume { nodes, tetrahedra, hexahedra }))
+}
+
+/// With the mass of an element from its mass matrix for a density of 1 [m³]: lumped at its nodes, and the difference.
+fn with_mass<const NODES: usize>(
+    mut contribution: Contribution,
+    nodes: [NodeId; NODES],
+    mut matrix: Box<[[f64; NODES]; NODES]>,
+    (model, density): (&InitialModel, f64),
+) -> Contribution {
+    matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry *= density);
+    let lumped = lumped(&matrix);
+    for (node, own) in nodes.into_iter().zip(lumped) {
+        contribution.add_inertia(node, Inertia::of_rigid_body(own, &Vector3::zeros(), &Matrix3::zeros()));
+    }
+    contribution.with(MassDistribution::of_points(nodes, matrix, &lumped, model.gravity.clone()))
 }
