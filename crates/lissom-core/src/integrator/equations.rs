@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use lissom_motion::Vector6;
-use lissom_solver::FactorError;
+use lissom_solver::{FactorError, FactorReport};
 
 use super::corrections::{Add, Measure, Multiply};
 use super::workspace::{EvaluationSpace, Workspace};
@@ -26,6 +26,10 @@ use crate::system::{State, StepPoint, System, TangentAssembler};
 pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
 /// Smallest reference of increments, relative to the drift, for the convergence of first-order states [-].
 const MIN_DEPARTURE: f64 = 1e-5;
+/// Cancellation in a pivot of an equilibrium's tangent below which its condition number is estimated.
+const SUSPECT: f64 = 1e-12;
+/// Condition number of an equilibrated tangent above which it is singular except for round-off.
+const SINGULAR: f64 = 1e13;
 
 /// Largest number of decoupled systems: pairs of stages, and one real system.
 const MAX_SYSTEMS: usize = MAX_STAGES.div_ceil(2);
@@ -460,6 +464,19 @@ impl StepEquations<'_> {
         }
     }
 
+    /// Rejects a stiffness that is singular except for round-off, as of an elastic solid that can rotate freely: no pivot vanishes exactly.
+    fn check_resistance(&mut self, report: &FactorReport) -> Result<(), FactorError> {
+        let tangent = &mut self.work.tangent;
+        let (unknown, pivot) =
+            tangent.fell_back().unwrap_or((report.worst_cancellation_unknown, report.smallest_pivot));
+        let is_suspect =
+            report.worst_cancellation < SUSPECT && unknown < self.system.layout().coordinate_count();
+        if is_suspect && tangent.matrices.condition_estimate(&self.system.structure().pattern) > SINGULAR {
+            return Err(FactorError::ZeroPivot { unknown, pivot, largest: report.largest_diagonal });
+        }
+        Ok(())
+    }
+
     /// First signal or function of a load that is not finite at the last iterate, if any.
     pub(crate) fn signal_error(&self) -> Option<crate::signals::SignalError> {
         self.work.motions.iter().find_map(|motion| self.system.check_functions(&motion.at).err())
@@ -537,7 +554,10 @@ impl Equations for StepEquations<'_> {
         }
         self.work.round_off.force = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
-        self.work.tangent.renew(self.system.structure(), self.scaled.scale())?;
+        let report = self.work.tangent.renew(self.system.structure(), self.scaled.scale())?;
+        if !self.scheme.dynamic {
+            self.check_resistance(&report)?;
+        }
         self.note_scales();
         self.watch.begin(Phase::Rest);
         Ok(())

@@ -178,3 +178,23 @@ fn the_weight_of_a_curved_solid_acts_at_its_centre() {
     assert!((found[1] / about_x - 1.0).abs() < 5e-3, "{found:?}, {about_x}");
     assert!((found[2] / -about_y - 1.0).abs() < 5e-3, "{found:?}, {about_y}");
 }
+
+/// A block that is held along one edge can rotate about it, whatever the direction of its weight.
+#[test]
+fn a_solid_on_a_hinge_has_no_resistance() {
+    for gravity in ["[3, 0, -9.81]", "[0, 0, -9.81]"] {
+        let text = format!(
+            "lissom = 1\ngravity = {gravity}\n[materials.m]\nE = 1e9\nnu = 0.3\ndensity = 2000\n[solids.b]\nsize = [0.3, 0.7, 0.2]\n\
+             divisions = [2, 3, 1]\nmaterial = \"m\"\n[solids.b.sets]\nedge = {{ from = [-1e-3, -1, -1e-3], to = [1e-3, 2, 1e-3] }}\n\
+             [joints.hinge]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"b.edge\"\n[outputs.u]\nkind = \"displacement\"\nof = \"b@1,1,1\"\n\
+             [analysis]\nkind = \"statics\"\n"
+        );
+        let result =
+            lissom::Model::from_text("model.toml", &text).session().map_err(|error| error.to_string());
+        let message = match result {
+            Ok(mut session) => session.run().expect_err("free to rotate").to_string(),
+            Err(message) => message,
+        };
+        assert!(message.contains("no resistance"), "{message}");
+    }
+}
