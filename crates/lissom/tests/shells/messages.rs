@@ -20,6 +20,11 @@ fn messages_name_what_is_wrong_and_the_remedy() {
         ("[10, 1, 0], [0, 1, 0]]", "[0, 1, 0], [10, 1, 0]]", "not convex"),
         ("corners = ", "mesh = \"none.msh\"\ncorners = ", "has several surfaces"),
         ("kind = \"displacement\"", "kind = \"section_force\"", "not on a beam"),
+        (
+            "material = \"soft\"\n[joints",
+            "material = \"soft\"\ndirection = [0, 0, 2]\n[joints",
+            "is normal to its element 1",
+        ),
         ("corners = ", "scale = 1e-3\ncorners = ", "used with a `mesh` only"),
         (
             "[outputs.tip]",
