@@ -162,7 +162,7 @@ pub(super) fn keys() -> Vec<Key> {
             "pressure",
             Shape::AreaSize,
             "Pa",
-            "force per area along the normal, which it follows: an expression of u, v and t",
+            "force per area on the face of the normal, against the normal, which it follows: an expression of u, v and t",
         ),
         optional(
             "force_per_area",

@@ -198,3 +198,23 @@ fn a_solid_on_a_hinge_has_no_resistance() {
         assert!(message.contains("no resistance"), "{message}");
     }
 }
+
+/// The same plate bends the same way under the same pressure on its upper face as a shell and as a solid.
+#[test]
+fn pressure_on_a_shell_and_a_solid_has_one_sign() {
+    let rest = "material = \"m\"\n[joints.r]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"p.west\"\n[outputs.o]\nkind = \"displacement\"\n";
+    let head = "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0\ndensity = 1000\n";
+    let shell = format!(
+        "{head}[shells.p]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 0.5, 0], [0, 0.5, 0]]\ndivisions = [8, 4]\nthickness = 0.05\npressure = 500\n{rest}of = \"p@1,0.5\"\n"
+    );
+    let solid = format!(
+        "{head}[solids.p]\nsize = [1, 0.5, 0.05]\ndivisions = [8, 4, 1]\npressure = {{ top = 500 }}\n{rest}of = \"p@1,0.5,1\"\n"
+    );
+    // q L⁴/(8 E I).
+    let expected = -500.0 / (8.0 * 1e9 * 0.05_f64.powi(3) / 12.0);
+    for text in [shell, solid] {
+        let record = run(&format!("{text}[analysis]\nkind = \"statics\"\nsteps = 1\n"), &[]);
+        let found = last(&record, "o", "u3");
+        assert!((found / expected - 1.0).abs() < 0.02, "{found}, {expected}");
+    }
+}
