@@ -388,11 +388,13 @@ impl Whole {
         forces
     }
 
-    /// Square roots of the diagonal of the stiffness: rows and columns divided by them have one unit.
+    /// Square roots of the diagonal of the stiffness: rows and columns divided by them have one unit. What is round-off of the largest one,
+    /// as of a body without springs, counts as round-off.
     fn scale(&self, pattern: &Pattern) -> Vec<f64> {
-        (0..self.size)
-            .map(|row| pattern.position(row, row).map_or(0.0, |at| self.parts.stiffness[at].abs().sqrt()))
-            .collect()
+        let own = |row| pattern.position(row, row).map_or(0.0, |at| self.parts.stiffness[at].abs().sqrt());
+        let scale: Vec<f64> = (0..self.size).map(own).collect();
+        let least = f64::EPSILON * scale.iter().copied().fold(0.0, f64::max);
+        scale.into_iter().map(|own| own.max(least)).collect()
     }
 
     /// Fails if a rigid motion causes forces: coordinates of joints do not change in it.

@@ -78,3 +78,25 @@ fn a_reduced_panel_has_its_first_frequencies() {
         assert!((one / other - 1.0).abs() < 5e-3, "{reduced:?}, {whole:?}");
     }
 }
+
+/// A panel with its middle beside the nodes, between two bodies: bodies have no stiffness, and what is round-off of that of the panel holds
+/// none of them.
+#[test]
+fn a_panel_with_an_offset_is_reduced() {
+    let text = "lissom = 1\n[materials.m]\nE = 1e10\nnu = 0.25\ndensity = 1500\n[shells.s]\n\
+                corners = [[0, 0, 0], [0.8, 0, 0], [0.8, 0.2, 0], [0, 0.2, 0]]\ndivisions = [8, 2]\nthickness = 0.006\noffset = -0.02\nmaterial = \"m\"\n\
+                [bodies]\na = { mass = 1, inertia = [0.01, 0.01, 0.01], position = [0, 0.1, 0] }\nb = { mass = 2, inertia = [0.01, 0.02, 0.01], position = [0.8, 0.1, 0] }\n\
+                [joints]\nja = { kind = \"clamp\", base = \"a\", tip = \"s.west\" }\njb = { kind = \"clamp\", base = \"b\", tip = \"s.east\" }\n\
+                [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 1e-3\n";
+    let request = ReduceRequest {
+        parts: Vec::new(),
+        interfaces: ["a", "b"].map(str::to_owned).to_vec(),
+        modes: 4,
+        corrections: false,
+        about: OperatingPoint::Undeformed,
+        name: Some("part".to_owned()),
+    };
+    let report =
+        reduce(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(report.interfaces.len(), 2);
+}
