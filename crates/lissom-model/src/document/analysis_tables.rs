@@ -161,7 +161,13 @@ fn load_steps(mut statics: Vec<Key>) -> Vec<Key> {
 /// Analyses that record nothing over time.
 fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
     common.retain(|key| !matches!(key.name, "output_every" | "frames_per_second" | "statistics_window"));
-    let mut path = common.clone();
+    // Loads that grow from zero to one second, as in statics, have their full size.
+    let mut under_loads = common.clone();
+    for key in under_loads.iter_mut().filter(|key| key.name == "start") {
+        *key = optional("start", Shape::Number, "s", "instant at which loads and drives are evaluated")
+            .or_number(1.0);
+    }
+    let mut path = under_loads.clone();
     path.extend([
         optional("end", Shape::Number, "", "load factor at which the path ends; with `vary` the value at which it ends, which is required then").or_number(1.0),
         optional("step", Shape::Positive, "", "first step of the load factor or of the number, default a fiftieth of the range"),
@@ -169,7 +175,7 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
         optional("vary", Shape::Text, "", "number of the model file that is varied from its value there, such as `parameters.height`; default: the load factor"),
         optional("branch", Shape::Between(-1000.0, 1000.0), "", "number of the bifurcation at which the path continues on the branch, from 1; negative for the opposite direction of the branch, zero for none").or_number(0.0),
     ]);
-    let mut buckling = common.clone();
+    let mut buckling = under_loads;
     buckling.push(
         optional("count", Shape::Count(1, 10_000), "", "number of load factors")
             .or_count(DEFAULT_BUCKLING_COUNT),

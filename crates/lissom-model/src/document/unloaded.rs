@@ -3,7 +3,7 @@
 use lissom_mechanics::elements::LOADS;
 use lissom_mechanics::registry::{ParameterType, Value};
 
-use super::Document;
+use super::{AnalysisKind, Document};
 
 impl Document {
     /// The same model without gravity, forces per length of beams, and sizes of loads.
@@ -27,3 +27,15 @@ impl Document {
         document
     }
 }
+
+    /// The same model with the loads of one instant: those at the end of load steps, where constant loads have grown to their full size.
+    #[must_use]
+    pub fn under_full_loads(&self) -> Self {
+        let mut document = self.clone();
+        if matches!(document.analysis.kind, AnalysisKind::Statics { .. }) {
+            document.analysis.start = document.analysis.end;
+            document.analysis.end += 1.0;
+            document.analysis.ramp = false;
+        }
+        document
+    }

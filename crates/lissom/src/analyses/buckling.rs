@@ -109,7 +109,7 @@ pub struct BucklingReport {
 /// # Errors
 /// If the model is invalid, its loads are already critical, or load factors were missed.
 pub fn buckling(model: &Model, count: Option<usize>) -> Result<BucklingReport, BucklingRunError> {
-    let document = model.document()?;
+    let document = model.document()?.under_full_loads();
     let own = match document.analysis.kind {
         AnalysisKind::Buckling { count } => count,
         _ => DEFAULT_BUCKLING_COUNT,

@@ -123,3 +123,17 @@ fn fewer_factors_than_asked_for_are_reported() {
     let (few, warnings) = reported(None);
     assert!(few <= number && warnings.is_empty(), "{few} {warnings:?}");
 }
+
+/// Constant loads of statics grow over its load steps: buckling takes their full size.
+#[test]
+fn loads_of_statics_have_their_full_size() {
+    let column = "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0.3\ndensity = 1000\n[sections.s]\nshape = \"rectangle\"\nmaterial = \"m\"\nwidth = 0.02\nheight = 0.01\n\
+                  [beams.b]\nsection = \"s\"\nfrom = [0, 0, 0]\nto = [0, 0, 1]\nelements = 4\n[joints.j]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"b.start\"\n\
+                  [loads.f]\nkind = \"force\"\non = \"b.end\"\nvector = [0, 0, -1]\n[analysis]\nkind = \"KIND\"\n";
+    let factor = |kind: &str| {
+        let model = Model::from_text("column.toml", &column.replace("KIND", kind));
+        buckling(&model, Some(1)).unwrap().buckling.modes[0].load_factor
+    };
+    let [one, other] = ["buckling", "statics"].map(factor);
+    assert!((one / other - 1.0).abs() < 1e-12 && one > 3.0, "{one}, {other}");
+}

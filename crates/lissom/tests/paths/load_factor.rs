@@ -309,7 +309,7 @@ fn a_path_that_cannot_be_is_refused() {
     let start = |text: &str| {
         PathSession::new(&Model::from_text("model.toml", text)).map(|_| ()).unwrap_err().to_string()
     };
-    let idle = along_load(0.3, 1.0).replace("vector = [0, -1, 0]", "vector = [0, -1, 0]\nscale = \"t\"");
+    let idle = along_load(0.3, 1.0).replace("vector = [0, -1, 0]", "vector = [0, -1, 0]\nscale = \"t - 1\"");
     assert!(start(&idle).contains("load factor has no effect"));
     let (record, report) = follow(&along_load(0.3, 1.0), &[("analysis.steps", "3"), ("analysis.end", "1e6")]);
     assert!(matches!(report.end, PathEnd::Failed(_)));

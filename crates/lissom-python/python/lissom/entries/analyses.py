@@ -120,7 +120,7 @@ class Path(Analysis):
     """Equilibrium path under loads times a load factor, or along a number of the model, through limit points, by arc length.
 
     Args:
-        start: first time; default 0 [s]; a number, or nothing.
+        start: instant at which loads and drives are evaluated; default 1 [s]; a number, or nothing.
         scaling: scale of the equations; default `"physical"`; `"physical"`, `"unit"`, `"none"`, or nothing.
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
@@ -159,7 +159,7 @@ class Buckling(Analysis):
     """Buckling load factors, by a linear estimate.
 
     Args:
-        start: first time; default 0 [s]; a number, or nothing.
+        start: instant at which loads and drives are evaluated; default 1 [s]; a number, or nothing.
         scaling: scale of the equations; default `"physical"`; `"physical"`, `"unit"`, `"none"`, or nothing.
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
