@@ -231,9 +231,17 @@ impl System {
 
     /// Whether forces depend on the motion through signals or the functions of loads, or there are states.
     pub fn has_feedback(&self) -> bool {
-        self.feedback.depends_on_motion()
-            || self.layout.state_count() > 0
-            || self.elements_with(|own| own.load).any(Load::depends_on_motion)
+        self.has_signal_feedback() || self.has_loads_of_motion()
+    }
+
+    /// Whether forces depend on the motion through signals, or there are states.
+    pub fn has_signal_feedback(&self) -> bool {
+        self.feedback.depends_on_motion() || self.layout.state_count() > 0
+    }
+
+    /// Whether loads depend on the motion beyond the rotation of their nodes, such as pressure.
+    pub fn has_loads_of_motion(&self) -> bool {
+        self.elements_with(|own| own.load).any(Load::depends_on_motion)
     }
 
     /// Full gravity [m/s²].

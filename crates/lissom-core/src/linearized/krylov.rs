@@ -8,6 +8,8 @@ use std::collections::VecDeque;
 use lissom_solver::Scalar;
 use num_complex::Complex64;
 
+pub(super) use crate::saddle_point::potential::Noise;
+
 /// Number of starting vectors: eigenvalues of this multiplicity are found at once.
 pub(super) const BLOCK: usize = 6;
 /// Steps between two computations of the eigenvalues of a symmetric operator.
@@ -66,19 +68,6 @@ pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
 pub(super) fn add<S: Scalar>(y: &mut [S], factor: S, x: &[S]) {
     for (y, &x) in y.iter_mut().zip(x) {
         *y += factor * x;
-    }
-}
-
-/// Pseudo-random numbers in (-1, 1), the same in every run (SplitMix64, Steele et al. 2014).
-pub(super) struct Noise(pub(super) u64);
-
-impl Noise {
-    pub(super) fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
 

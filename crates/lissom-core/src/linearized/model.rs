@@ -16,10 +16,13 @@ use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::errors::StepError;
 use crate::interrupt::{self, Interrupted};
+use crate::iterate::hold_unbalanced_forces;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, MotionChange, NodeId, Quantity, Subject};
 use crate::round_off;
-use crate::scaling::Representative;
+use crate::saddle_point::potential::{self, has_potential};
+use crate::scaling::{Representative, Scaled};
+use crate::schemes::Weights;
 use crate::system::{Linearization, State, System};
 
 /// Transposed entries are different if they differ by more than this fraction of the larger one, and by more than round-off of their
@@ -196,6 +199,9 @@ impl<'a> LinearModel<'a> {
         system.linearize(&point, chart, &mut parts);
         parts.fold_multipliers();
         redundancy.omit_from(system, &mut parts.constraint);
+        if is_at_rest && system.has_loads_of_motion() && !system.has_signal_feedback() {
+            symmetrise(system, &representative, &mut parts);
+        }
         if !is_at_rest {
             move_to_rates(system, &mut parts);
             if unsteadiness > round_off::STEADY_MOTION {
@@ -405,7 +411,7 @@ pub(super) fn point<'b>(
     }
 }
 
-/// Solves with stiffness and mass at a small shift. With signals both are unsymmetric, and states have only damping.
+/// Solves with stiffness and mass at a small shift. With signals and some loads both are unsymmetric, and states have only damping.
 enum Holding<'a> {
     Symmetric(RealShift<'a>),
     General { solver: ComplexShift<'a>, room: Vec<Complex64> },
@@ -417,7 +423,8 @@ impl<'a> Holding<'a> {
         unloaded: &Linearization,
         representative: &Representative,
     ) -> Result<Self, FactorError> {
-        if system.has_feedback() {
+        let is_symmetric = || is_symmetric(system, representative, unloaded);
+        if system.has_signal_feedback() || (system.has_loads_of_motion() && !is_symmetric()) {
             let mut solver = ComplexShift::new(system, representative);
             let rate = small_square(representative).sqrt();
             solver.factor(unloaded, Complex64::new(rate, 0.0))?;
@@ -570,6 +577,26 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
                 parts.stiffness[starts[j] + offset] += (0..6).map(|i| mass[i] * turning[(i, j)]).sum::<f64>();
             }
         }
+    }
+}
+
+/// Replaces the stiffness at rest by its symmetric part if the rest does no work under the constraints.
+fn symmetrise(system: &System, representative: &Representative, parts: &mut Linearization) {
+    if is_symmetric(system, representative, parts) {
+        return;
+    }
+    let scaled = Scaled::at_rate(representative, small_square(representative).sqrt());
+    let blend = scaled.blend(Weights::AT_REST);
+    let (structure, count) = (system.structure(), system.layout().coordinate_count());
+    let mut stiffness = parts.stiffness.clone();
+    hold_unbalanced_forces(system.layout(), &structure.pattern, &mut stiffness);
+    let value = |k: usize| {
+        blend.place * stiffness[k] + blend.augmented * parts.gram[k] + blend.constraint * parts.constraint[k]
+    };
+    let values: Vec<f64> = (0..stiffness.len()).map(value).collect();
+    if has_potential(structure, (&values, count), scaled.scale(), &[]) {
+        potential::symmetrise(&structure.pattern, &mut stiffness, count);
+        parts.stiffness = stiffness;
     }
 }
 

@@ -17,6 +17,7 @@ use crate::iterate;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Stressed};
 use crate::newton::{Correction, Equations, Failure};
+use crate::saddle_point::potential::{self, has_potential};
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
@@ -54,6 +55,8 @@ pub(super) struct PathWork {
     redundancy: Redundancy,
     /// Whether the last factored tangent is symmetric. Otherwise its negative pivots only determine the sign of its determinant.
     is_symmetric: bool,
+    /// Whether the antisymmetric part of the stiffness does no work under the constraints; none as long as there is none.
+    has_potential: Option<bool>,
     other_values: Vec<f64>,
     scratch: Scratch,
     iterate: Iterate,
@@ -120,6 +123,7 @@ impl PathWork {
             saddle,
             redundancy,
             is_symmetric: true,
+            has_potential: None,
             other_values: vec![0.0; entries],
             scratch: Scratch::default(),
             iterate: Iterate {
@@ -349,8 +353,9 @@ impl PathEquations<'_> {
         true
     }
 
-    /// Linearises at the iterate and factors the tangent; then solves for the response to the load.
-    fn factor(&mut self, stressed_at_start: bool) -> Result<(), FactorError> {
+    /// Linearises at the iterate and factors the tangent, of loads with a potential the symmetric part if the iterate `is_converged`;
+    /// then solves for the response to the load.
+    fn factor(&mut self, stressed_at_start: bool, is_converged: bool) -> Result<(), FactorError> {
         if !(self.evaluate() && self.differentiate()) {
             return Err(FactorError::NotFinite { unknown: 0 });
         }
@@ -386,9 +391,27 @@ impl PathEquations<'_> {
         if stressed_at_start && system.predicts_stresses() {
             iterate::hold_unbalanced_forces(system.layout(), &structure.pattern, &mut values);
         }
+        let scale = work.scaled.scale();
+        let may_have_potential = is_converged && system.has_loads_of_motion();
+        if may_have_potential && work.has_potential == Some(true) {
+            iterate::hold_unbalanced_forces(system.layout(), &structure.pattern, &mut values);
+            potential::symmetrise(&structure.pattern, &mut values, count);
+        }
+        let raw = (may_have_potential && work.has_potential.is_none()).then(|| values.clone());
         (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
-        work.saddle.renew(structure, work.scaled.scale())?;
+        work.saddle.renew(structure, scale)?;
         work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
+        if let Some(mut values) = raw.filter(|_| !work.is_symmetric) {
+            iterate::hold_unbalanced_forces(system.layout(), &structure.pattern, &mut values);
+            let has_potential = has_potential(structure, (&values, count), scale, work.saddle.omitted());
+            work.has_potential = Some(has_potential);
+            if has_potential {
+                potential::symmetrise(&structure.pattern, &mut values, count);
+                work.saddle.matrices.values = values;
+                work.saddle.renew(structure, scale)?;
+                work.is_symmetric = true;
+            }
+        }
         let mut response = std::mem::take(&mut work.forces.response);
         for (value, load) in response.iter_mut().zip(&work.forces.load) {
             *value = -load;
@@ -407,7 +430,7 @@ impl PathEquations<'_> {
 
     /// The converged state, and the tangent of the path there.
     pub(super) fn finish(&mut self, iterations: usize) -> Result<Solution, StepError> {
-        self.factor(false).map_err(|error| self.describe(&Failure::Factor(error)))?;
+        self.factor(false, true).map_err(|error| self.describe(&Failure::Factor(error)))?;
         let count = self.systems.any().layout().coordinate_count();
         let multiplier_count = self.work.iterate.multipliers.len();
         let mut probe = vec![0.0; count + multiplier_count];
@@ -577,7 +600,7 @@ impl Equations for PathEquations<'_> {
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         // The stresses of an iterate far from equilibrium are meaningless.
         let is_far = self.work.correction > FAR_FROM_EQUILIBRIUM;
-        self.factor(is_far)
+        self.factor(is_far, false)
     }
 
     fn leads_elsewhere(&self) -> bool {

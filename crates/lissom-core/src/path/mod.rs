@@ -67,7 +67,7 @@ diagnostics! {
             meaning: "The model without its loads has other unknowns than with them.",
             advice: "Omit loads that add coordinates or states.",
         }
-        /// Loads depend on the motion, or there are first-order states.
+        /// Loads depend on the motion through signals, or there are first-order states.
         Feedback {} => "path-feedback" {
             cause: ("a system with feedback has no equilibrium path"),
             remedy: "remove loads and states whose signals depend on the motion",
@@ -324,7 +324,7 @@ impl EquilibriumPath {
         state: State,
         settings: PathSettings,
     ) -> Result<Self, PathError> {
-        if unloaded.has_feedback() || loaded.has_feedback() {
+        if unloaded.has_signal_feedback() || loaded.has_signal_feedback() {
             return Err(PathError::Feedback {});
         }
         refuse_velocities(&loaded)?;
@@ -351,7 +351,7 @@ impl EquilibriumPath {
         settings: PathSettings,
     ) -> Result<Self, PathError> {
         let systems = PathSystems::of_number(name.clone(), family, [from, settings.end])?;
-        if systems.any().has_feedback() {
+        if systems.any().has_signal_feedback() {
             return Err(PathError::Feedback {});
         }
         refuse_velocities(systems.any())?;

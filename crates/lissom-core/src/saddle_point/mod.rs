@@ -19,6 +19,7 @@
 
 pub(crate) mod equilibration;
 mod matrix;
+pub(crate) mod potential;
 pub(crate) mod stage_tangents;
 mod tangent_numbers;
 mod tangent_values;

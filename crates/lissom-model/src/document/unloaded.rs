@@ -6,7 +6,7 @@ use lissom_mechanics::registry::{ParameterType, Value};
 use super::{AnalysisKind, Document};
 
 impl Document {
-    /// The same model without gravity, forces per length of beams, and sizes of loads.
+    /// The same model without gravity, forces per length of beams, pressures and forces per area, and sizes of loads.
     /// Loads remain with size zero, so that outputs and inputs can refer to them and the pattern of the matrices is the same.
     /// Entries without a size are unchanged: the spin of a gyrostat is not an applied load.
     #[must_use]
@@ -16,6 +16,9 @@ impl Document {
         for beam in &mut document.beams {
             beam.distributed.clear();
         }
+        // The elements between the nodes have the pattern of a pressure.
+        document.shells.iter_mut().for_each(|shell| shell.loads.clear());
+        document.elastic_solids.iter_mut().for_each(|solid| solid.pressures.clear());
         for load in &mut document.loads {
             let kind = LOADS.iter().find(|kind| kind.name == load.kind.value);
             let sizes = kind.into_iter().flat_map(|kind| kind.parameters);
@@ -26,7 +29,6 @@ impl Document {
         }
         document
     }
-}
 
     /// The same model with the loads of one instant: those at the end of load steps, where constant loads have grown to their full size.
     #[must_use]
@@ -39,3 +41,4 @@ impl Document {
         }
         document
     }
+}

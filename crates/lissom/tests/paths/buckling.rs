@@ -124,6 +124,63 @@ fn fewer_factors_than_asked_for_are_reported() {
     assert!(few <= number && warnings.is_empty(), "{few} {warnings:?}");
 }
 
+/// A quarter of a ring of 0.4 m with two planes of symmetry, under `pressure` from outside [Pa] with a deviation of the radius [m]. The ends
+/// slide in planes: pressure has a potential, although its stiffness is not symmetric at the rim.
+fn ring(pressure: f64, deviation: f64, analysis: &str) -> String {
+    let held = [("a", "west", "y"), ("b", "east", "x"), ("c", "south", "z"), ("d", "north", "z")].map(|(name, side, axis)| {
+        format!("[joints.{name}]\nkind = \"planar\"\nbase = \"ground\"\ntip = \"s.{side}\"\naxis = \"{axis}\"\n")
+    });
+    format!(
+        "lissom = 1\n[materials.m]\nE = 70e9\nnu = 0.3\ndensity = 2700\n[shells.s]\n\
+         surface = [\"(0.4 + {deviation}*cos(pi*u))*cos(pi/2*u)\", \"(0.4 + {deviation}*cos(pi*u))*sin(pi/2*u)\", \"0.05*v\"]\n\
+         divisions = [16, 1]\nthickness = 0.003\nmaterial = \"m\"\npressure = \"{pressure}*t\"\n{}{analysis}",
+        held.concat()
+    )
+}
+
+/// 3 D/R³ of a ring whose ends do not strain along its axis.
+fn critical_pressure() -> f64 {
+    3.0 * 70e9 * 0.003_f64.powi(3) / (12.0 * (1.0 - 0.09)) / 0.4_f64.powi(3)
+}
+
+#[test]
+fn a_ring_buckles_under_pressure() {
+    let text = ring(0.2 * critical_pressure(), 0.0, "[analysis]\nkind = \"buckling\"\n");
+    let report = buckling(&Model::from_text("ring.toml", &text), Some(2)).unwrap();
+    let found = report.buckling.modes[0].load_factor;
+    assert!((found / 5.0 - 1.0).abs() < 0.01, "{found}");
+    // The loads of statics are those at the end of its load steps.
+    let text = ring(0.2 * critical_pressure(), 0.0, "[analysis]\nkind = \"statics\"\n");
+    let again = buckling(&Model::from_text("ring.toml", &text), Some(2)).unwrap();
+    assert!((again.buckling.modes[0].load_factor / found - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_path_of_a_ring_under_pressure_bifurcates() {
+    let text = ring(critical_pressure(), 0.0, "[analysis]\nkind = \"path\"\nend = 1.2\nstep = 0.2\n");
+    let (_, report) = crate::support::paths::follow(&text, &[]);
+    let found = report.critical.first().expect("a critical point").load_factor;
+    assert!((found - 1.0).abs() < 0.01, "{found}");
+}
+
+#[test]
+fn an_oval_ring_beyond_its_critical_pressure_is_unstable() {
+    for (factor, is_unstable) in [(0.5, false), (40.0, true)] {
+        let text = ring(factor * critical_pressure(), 5e-4, "[analysis]\nkind = \"statics\"\nsteps = 1\n");
+        let mut session = Model::from_text("ring.toml", &text).session().unwrap();
+        let result = session.run();
+        let has_warning = session.warnings().any(|warning| warning.code() == "unstable-equilibrium");
+        // A step that does not converge is no wrong equilibrium either.
+        assert!(
+            if is_unstable { result.is_err() || has_warning } else { result.is_ok() && !has_warning },
+            "{factor}"
+        );
+        if !is_unstable {
+            assert_eq!(session.simulation().stability().last().map(|own| own.1), Some(Some(0)));
+        }
+    }
+}
+
 /// Constant loads of statics grow over its load steps: buckling takes their full size.
 #[test]
 fn loads_of_statics_have_their_full_size() {
