@@ -7,7 +7,8 @@
 //!
 //! K₀ stiffness of the equilibrium without loads, K₁ of the one under the loads of the model. In the inner product of K₀ the
 //! operator x ↦ -K₀⁻¹ (K₁ - K₀) x on the constraints is symmetric with eigenvalues 1/Λ. The negative pivots of the matrix at a load
-//! factor above the last one count those below.
+//! factor above the last one count those below. If some were missed, because many factors are close to each other, the search is repeated
+//! from K₀ + Λ₀ (K₁ - K₀) with a Λ₀ just below the first factor: the eigenvalues are then 1/(Λ - Λ₀), which are far apart.
 
 use super::krylov::{Krylov, Operator, product};
 use super::lanczos::{is_converged, ritz, whole_clusters};
@@ -18,9 +19,12 @@ use super::{ADDITIONAL_MODES, krylov};
 use crate::diagnostics::diagnostics;
 use crate::interrupt;
 use crate::round_off;
+use crate::system::Linearization;
 
 /// Load factor below which no mode is expected if none is found, over the magnitude of the lowest negative one.
 const FAR_AWAY: f64 = 1e3;
+/// Load factor from which a search is repeated, over the lowest one.
+const RESTART_SHARE: f64 = 0.95;
 /// A search with this number of vectors, and eight times the number of modes, is ended: there are no more modes.
 const MAX_VECTORS: usize = 300;
 
@@ -31,6 +35,16 @@ pub struct BucklingMode {
     pub load_factor: f64,
     /// Body-frame displacements and rotations by row, normalised to xᵀK₀x = 2 J.
     pub shape: Vec<f64>,
+}
+
+impl BucklingMode {
+    /// Counts the load factor from zero instead of from `start`: xᵀKx is in proportion to it.
+    fn move_from(&mut self, start: f64) {
+        let own = self.load_factor;
+        self.load_factor += start;
+        let factor = (own / self.load_factor).sqrt();
+        self.shape.iter_mut().for_each(|entry| *entry *= factor);
+    }
 }
 
 /// Buckling modes, by ascending load factor.
@@ -79,6 +93,8 @@ impl From<LinearError> for BucklingError {
 
 struct Inverse<'m, 's, 'a> {
     unloaded: &'m LinearModel<'a>,
+    /// Stiffness from which the loads change by `change` per load factor.
+    stiffness: &'m [f64],
     change: &'m [f64],
     solver: &'s mut RealShift<'a>,
     room: Vec<f64>,
@@ -113,8 +129,8 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
     }
 
     fn weigh(&mut self, vector: &[f64], weighted: &mut [f64]) {
-        let unloaded = self.unloaded;
-        self.multiply(&unloaded.parts.stiffness, vector, weighted);
+        let stiffness = self.stiffness;
+        self.multiply(stiffness, vector, weighted);
     }
 }
 
@@ -128,17 +144,37 @@ impl LinearModel<'_> {
         if !(self.is_conservative() && loaded.is_conservative()) {
             return Err(BucklingError::NotSymmetric {});
         }
+        let change: Vec<f64> =
+            loaded.parts.stiffness.iter().zip(&self.parts.stiffness).map(|(one, zero)| one - zero).collect();
+        let found = self.buckling_from(0.0, &change, count)?;
+        let Some(first) = found.modes.first().filter(|_| found.completeness != Completeness::Counted) else {
+            return Ok(found);
+        };
+        // The lowest factor may be one of those missed.
+        let again = self.buckling_from(RESTART_SHARE * first.load_factor, &change, count);
+        Ok(again.ok().filter(|again| again.completeness == Completeness::Counted).unwrap_or(found))
+    }
+
+    /// The stiffness at a load factor, with the other coefficients of the model without loads.
+    fn at_load_factor(&self, change: &[f64], factor: f64) -> Linearization {
+        let mut parts = self.parts.clone();
+        parts.stiffness.iter_mut().zip(change).for_each(|(own, change)| *own += factor * change);
+        parts
+    }
+
+    /// The lowest load factors above `start`, at which the model is stable.
+    fn buckling_from(&self, start: f64, change: &[f64], count: usize) -> Result<Buckling, BucklingError> {
+        let parts = self.at_load_factor(change, start);
         let mut solver = RealShift::new(self.system, &self.representative);
-        let below = solver.factor(&self.parts, 0.0).map_err(|error| self.stopped(&error))?;
+        let below = solver.factor(&parts, 0.0).map_err(|error| self.stopped(&error))?;
         if below > 0 {
             return Err(BucklingError::Unstable { directions: below });
         }
-        let change: Vec<f64> =
-            loaded.parts.stiffness.iter().zip(&self.parts.stiffness).map(|(one, zero)| one - zero).collect();
         let size = self.system.layout().size();
         let mut operator = Inverse {
             unloaded: self,
-            change: &change,
+            stiffness: &parts.stiffness,
+            change,
             solver: &mut solver,
             room: vec![0.0; size],
             product: vec![0.0; size],
@@ -150,6 +186,7 @@ impl LinearModel<'_> {
         loop {
             let Search { mut modes, is_whole, largest } =
                 search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
+            modes.iter_mut().for_each(|mode| mode.move_from(start));
             let rates: Vec<f64> = modes.iter().map(|mode| mode.load_factor.recip()).collect();
             // All modes of a multiple factor are counted together: between two of them the matrix is singular.
             let keep = whole_clusters(&rates, count.min(rates.len()));
@@ -160,7 +197,7 @@ impl LinearModel<'_> {
             }
             let next = modes.get(keep).map(|mode| mode.load_factor);
             modes.truncate(keep);
-            let counted = self.counted(&change, &modes, next, largest);
+            let counted = self.counted(change, &modes, next, largest);
             let is_short = modes.len() < count && !is_whole;
             if counted == Completeness::Counted || is_exhausted || restarts == krylov::MAX_RESTARTS {
                 modes.truncate(count);
@@ -187,13 +224,11 @@ impl LinearModel<'_> {
         }
         let last = modes.last().map_or(FAR_AWAY / largest, |mode| mode.load_factor);
         let mut solver = RealShift::new(self.system, &self.representative);
-        for part in [0.5, 0.4, 0.6, 0.3] {
+        for part in [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8] {
             let at = next.map_or((1.0 + part) * last, |next| last + part * (next - last));
-            let stiffness =
-                self.parts.stiffness.iter().zip(change).map(|(zero, change)| zero + at * change).collect();
-            let mut parts = self.parts.clone();
-            parts.stiffness = stiffness;
-            if let Ok(below) = solver.factor(&parts, 0.0) {
+            if let Ok(below) = solver.factor(&self.at_load_factor(change, at), 0.0)
+                && solver.is_accurate()
+            {
                 return match below.checked_sub(modes.len()) {
                     Some(0) => Completeness::Counted,
                     Some(missing) => Completeness::Missing(missing),

@@ -306,7 +306,7 @@ impl<'a> LinearModel<'a> {
         let mut shifted = RealShift::new(self.system, &self.representative);
         // Just below zero, so that unconstrained directions without stiffness are not counted as unstable.
         let shift = -NEUTRAL * shifted.small_square();
-        shifted.factor(&self.parts, shift).ok()
+        shifted.factor(&self.parts, shift).ok().filter(|_| shifted.is_accurate())
     }
 
     /// Representative length [m].

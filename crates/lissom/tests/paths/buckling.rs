@@ -194,3 +194,20 @@ fn loads_of_statics_have_their_full_size() {
     let [one, other] = ["buckling", "statics"].map(factor);
     assert!((one / other - 1.0).abs() < 1e-12 && one > 3.0, "{one}, {other}");
 }
+
+/// The load factors of a cylinder under axial load are close to each other, from the classical value E h²/(R √(3 (1 - ν²))) per length on; this
+/// mesh is 16 % too stiff.
+#[test]
+fn dense_load_factors_of_a_cylinder_are_all_found() {
+    let text = "lissom = 1\n[materials.m]\nE = 2e11\nnu = 0.3\ndensity = 7800\n[shells.s]\n\
+                surface = [\"0.3*cos(2*pi*u)\", \"0.3*sin(2*pi*u)\", \"0.25*v\"]\ndivisions = [40, 8]\nthickness = 0.002\nmaterial = \"m\"\njoin = true\n\
+                [joints.b]\nkind = \"generic\"\nbase = \"ground\"\ntip = \"s.south\"\nlocked = [\"x\", \"y\", \"z\"]\n\
+                [joints.t]\nkind = \"generic\"\nbase = \"ground\"\ntip = \"s.north\"\nlocked = [\"x\", \"y\"]\n\
+                [loads.f]\nkind = \"force\"\non = \"s.north\"\nvector = [0, 0, -1e6]\n[analysis]\nkind = \"buckling\"\n";
+    let report = buckling(&Model::from_text("cylinder.toml", text), Some(16)).unwrap();
+    assert_eq!((report.buckling.completeness, report.buckling.modes.len()), (Completeness::Counted, 16));
+    let classical = 2.0 * PI * 2e11 * 0.002_f64.powi(2) / (3.0 * 0.91_f64).sqrt() / 1e6;
+    let factors: Vec<f64> = report.buckling.modes.iter().map(|mode| mode.load_factor).collect();
+    assert!((factors[0] / classical - 1.164).abs() < 0.01 && factors[15] < 1.22 * classical, "{factors:?}");
+    assert!(factors.windows(2).all(|pair| pair[0] <= pair[1] * (1.0 + 1e-9)), "{factors:?}");
+}
