@@ -15,7 +15,7 @@ use crate::kinematics::step_stages::StepStages;
 use crate::kinematics::{Kinematics, LOCKED, Quantity, Stressed, Subject};
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
-use crate::saddle_point::TangentValues;
+use crate::saddle_point::{REDUNDANT, TangentValues};
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{MAX_STAGES, Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
@@ -26,8 +26,6 @@ use crate::system::{State, StepPoint, System, TangentAssembler};
 pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
 /// Smallest reference of increments, relative to the drift, for the convergence of first-order states [-].
 const MIN_DEPARTURE: f64 = 1e-5;
-/// Cancellation in a pivot of an equilibrium's tangent below which its condition number is estimated.
-const SUSPECT: f64 = 1e-12;
 /// Condition number of an equilibrated tangent above which it is singular except for round-off.
 const SINGULAR: f64 = 1e13;
 
@@ -470,7 +468,7 @@ impl StepEquations<'_> {
         let (unknown, pivot) =
             tangent.fell_back().unwrap_or((report.worst_cancellation_unknown, report.smallest_pivot));
         let is_suspect =
-            report.worst_cancellation < SUSPECT && unknown < self.system.layout().coordinate_count();
+            report.worst_cancellation < REDUNDANT && unknown < self.system.layout().coordinate_count();
         if is_suspect && tangent.matrices.condition_estimate(&self.system.structure().pattern) > SINGULAR {
             return Err(FactorError::ZeroPivot { unknown, pivot, largest: report.largest_diagonal });
         }

@@ -34,7 +34,7 @@ use tangent_numbers::TangentNumbers;
 pub use tangent_values::TangentValues;
 
 /// The pivot of a redundant constraint's multiplier is this fraction of the terms it is made of, or less.
-const REDUNDANT: f64 = 1e-12;
+pub(crate) const REDUNDANT: f64 = 1e-12;
 
 /// Compliance in the equation of a multiplier whose pivot vanishes, as in a singular position. The equation remains, since the
 /// step must determine the multiplier.
