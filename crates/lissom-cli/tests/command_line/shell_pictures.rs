@@ -1,5 +1,6 @@
 //! Shells in pictures and in files for other programs: their places, and stresses that can be computed by hand.
 
+use std::fmt::Write;
 use std::fs;
 
 use lissom::ResultFolder;
@@ -329,13 +330,13 @@ steps = 1
 /// Two rows of four cells, each divided along either diagonal; the corner at which a triangle begins varies.
 fn triangles() -> String {
     let mut text = String::new();
-    for j in 0..3 {
-        for i in 0..5 {
+    for j in 0..3_usize {
+        for i in 0..5_usize {
             let is_inside = j == 1 && (1..4).contains(&i);
             let shift = [[0.03, -0.05], [0.0, -0.04], [0.02, 0.04]][(i + 2) % 3];
             let [x, y] = [0, 1]
                 .map(|k| [0.25 * i as f64, 0.25 * j as f64][k] + if is_inside { shift[k] } else { 0.0 });
-            text += &format!("v {x} {y} 0\n");
+            writeln!(text, "v {x} {y} 0").unwrap();
         }
     }
     let node = |i: usize, j: usize| 5 * j + i + 1;
@@ -344,7 +345,7 @@ fn triangles() -> String {
         let halves = if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
         for (half, mut corners) in halves.into_iter().enumerate() {
             corners.rotate_left((cell + half) % 3);
-            text += &format!("f {} {} {}\n", corners[0], corners[1], corners[2]);
+            writeln!(text, "f {} {} {}", corners[0], corners[1], corners[2]).unwrap();
         }
     }
     text

@@ -186,7 +186,9 @@ impl LinearModel<'_> {
         loop {
             let Search { mut modes, is_whole, largest } =
                 search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
-            modes.iter_mut().for_each(|mode| mode.move_from(start));
+            for mode in &mut modes {
+                mode.move_from(start);
+            }
             let rates: Vec<f64> = modes.iter().map(|mode| mode.load_factor.recip()).collect();
             // All modes of a multiple factor are counted together: between two of them the matrix is singular.
             let keep = whole_clusters(&rates, count.min(rates.len()));
