@@ -395,18 +395,18 @@ mod tests {
     const MAX_LOOSE: usize = 12;
 
     /// Named numeric constants of the crates of the core outside tests.
-    const MAX_CONSTANTS: usize = 444;
+    const MAX_CONSTANTS: usize = 452;
 
     /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
     const MAX_LINES: [(&str, usize); 12] = [
         ("lissom-motion", 3040),
         ("lissom-solver", 7010),
-        ("lissom-mechanics", 38_420),
+        ("lissom-mechanics", 38_730),
         ("lissom-system", 5410),
-        ("lissom-core", 32_100),
+        ("lissom-core", 32_280),
         ("lissom-drawing", 1720),
         ("lissom-mesh", 3070),
-        ("lissom-model", 36_010),
+        ("lissom-model", 36_100),
         ("lissom", 26_810),
         ("lissom-cli", 4970),
         ("lissom-fmi", 660),
