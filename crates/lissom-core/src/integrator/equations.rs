@@ -12,7 +12,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::StepStages;
-use crate::kinematics::{Kinematics, LOCKED, Quantity, Stressed, Subject};
+use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity, Stressed, Subject};
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
 use crate::saddle_point::{REDUNDANT, TangentValues};
@@ -462,14 +462,25 @@ impl StepEquations<'_> {
         }
     }
 
-    /// Rejects a stiffness that is singular except for round-off, as of an elastic solid that can rotate freely: no pivot vanishes exactly.
+    /// Rejects a stiffness that is singular except for round-off because an elastic solid can move freely: no pivot vanishes exactly. Lines
+    /// and sheets without tension are singular, too, and find their equilibrium.
     fn check_resistance(&mut self, report: &FactorReport) -> Result<(), FactorError> {
         let tangent = &mut self.work.tangent;
         let (unknown, pivot) =
             tangent.fell_back().unwrap_or((report.worst_cancellation_unknown, report.smallest_pivot));
-        let is_suspect =
-            report.worst_cancellation < REDUNDANT && unknown < self.system.layout().coordinate_count();
-        if is_suspect && tangent.matrices.condition_estimate(&self.system.structure().pattern) > SINGULAR {
+        let layout = self.system.layout();
+        let is_there = |node: &NodeId| {
+            let rows = layout.rows_of_node(*node);
+            rows[3..].iter().all(|row| *row == LOCKED) && rows[..3].iter().any(|row| *row as usize == unknown)
+        };
+        let is_of_solid = || {
+            let mut elements = self.system.elements_with(|own| own.deformation);
+            elements.any(|element| element.unknowns().nodes.iter().any(is_there))
+        };
+        if report.worst_cancellation < REDUNDANT
+            && is_of_solid()
+            && tangent.matrices.condition_estimate(&self.system.structure().pattern) > SINGULAR
+        {
             return Err(FactorError::ZeroPivot { unknown, pivot, largest: report.largest_diagonal });
         }
         Ok(())
