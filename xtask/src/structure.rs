@@ -403,7 +403,7 @@ mod tests {
         ("lissom-solver", 7010),
         ("lissom-mechanics", 38_730),
         ("lissom-system", 5410),
-        ("lissom-core", 32_280),
+        ("lissom-core", 32_290),
         ("lissom-drawing", 1720),
         ("lissom-mesh", 3070),
         ("lissom-model", 36_100),
