@@ -80,7 +80,8 @@ fn light_feet_carry_a_heavy_body() {
         );
         for (k, (x, y)) in [(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.2)].into_iter().enumerate() {
             bodies += &ball(&format!("f{k}"), (0.03, mass), [x, y, 0.03 + height], "");
-            bodies += &format!("[joints.j{k}]\nkind = \"clamp\"\nbase = \"a\"\ntip = \"f{k}\"\n");
+            let joint = format!("[joints.j{k}]\nkind = \"clamp\"\nbase = \"a\"\ntip = \"f{k}\"\n");
+            bodies += &joint;
         }
         let contact = "base = \"ground\"\ntip = \"f0\"\nothers = [\"f1\", \"f2\", \"f3\"]\nrestitution = 0.4\nfriction = 0.5";
         let record = run(&scene(G, &bodies, contact, [step, 3.0]), &[]);

@@ -22,7 +22,7 @@ use lissom_solver::Pattern;
 use nalgebra::Vector2;
 
 use super::StepContacts;
-use super::touch_point::{TouchPoint, TouchState, add_friction};
+use super::touch_point::{Phase, TouchPoint, TouchState, add_friction};
 use crate::integrator::equations::StepEquations;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId, Quantity};
@@ -307,7 +307,7 @@ impl StepContacts {
         let Self { near, states, impacts, .. } = self;
         let is_impact = |point: &TouchPoint, state: &TouchState| {
             let reached = REACHED * size * point.approach;
-            point.is_impact && (state.force.z > 0.0 || point.distance_at(state) < reached)
+            point.phase == Phase::Impact && (state.force.z > 0.0 || point.distance_at(state) < reached)
         };
         let pairs = || near.points.iter().zip(states.iter());
         if !pairs().any(|(point, state)| is_impact(point, state)) {
@@ -334,8 +334,13 @@ impl StepContacts {
             let is_impact = is_impact(point, state);
             let is_hit =
                 |labels: &[u32]| connected(labels, layout, point).any(|own| hit.binary_search(&own).is_ok());
-            if !is_impact && !(lasts(point, state) && is_hit(&impacts.labels)) {
-                if state.force.z > 0.0 && point.is_new && point.is_unresolved && is_hit(&impacts.labels) {
+            let takes_part = is_impact || lasts(point, state) && is_hit(&impacts.labels);
+            if !takes_part {
+                if state.force.z > 0.0
+                    && point.phase != Phase::Lasting
+                    && point.is_unresolved
+                    && is_hit(&impacts.labels)
+                {
                     impacts.postponed.push(index);
                 }
                 continue;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lissom_motion::{Vector3, Vector6};
 
 use super::free_path::{FreePath, Instant};
-use super::touch_point::{Place, StepOfPoint, TouchPoint};
+use super::touch_point::{Phase, Place, StepOfPoint, TouchPoint};
 use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting, TouchKey};
 use crate::contact::solids::Meeting;
 use crate::kinematics::{GROUND, Kinematics, split};
@@ -178,7 +178,7 @@ impl NearPoints {
         }
         self.begin(system, (start, false), [size; 2]);
         let mut first = f64::INFINITY;
-        for point in self.points.iter().filter(|point| point.is_impact) {
+        for point in self.points.iter().filter(|point| point.phase == Phase::Impact) {
             let parts = point.key.parts.map(|part| part as usize);
             let nodes = parts.map(|part| self.set.parts[part].node);
             let Some(meeting) = self.meeting_of(point).filter(|meeting| is_round(meeting)) else { continue };

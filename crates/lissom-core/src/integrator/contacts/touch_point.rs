@@ -100,6 +100,17 @@ impl Place {
     }
 }
 
+/// Progress of a touch at the start of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// The parts touched at the end of the last step.
+    Lasting,
+    /// They did not.
+    Beginning,
+    /// They did not, and approach so fast that the impact has a restitution, which the step does not resolve.
+    Impact,
+}
+
 /// A point at which two parts may touch in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TouchPoint {
@@ -124,14 +135,12 @@ pub(crate) struct TouchPoint {
     stiffness: f64,
     /// Inverse effective mass w [1/kg].
     pub(super) compliance: f64,
-    pub(super) is_new: bool,
+    pub(super) phase: Phase,
     /// Whether the touch is shorter than what the step resolves.
     pub(super) is_unresolved: bool,
     /// Velocity at which the parts approach at the start of the step [m/s].
     pub(super) approach: f64,
     impact_velocity: f64,
-    /// Whether it is an impact with restitution that the step does not resolve.
-    pub(super) is_impact: bool,
     /// μ N [N].
     pub(super) bound: f64,
 }
@@ -189,6 +198,11 @@ impl TouchPoint {
         let resolved = 1.0 / (step.size * step.size * step.compliance);
         // Parts of a planned step keep its bristles.
         let planned = 1.0 / (step.planned * step.planned * step.compliance);
+        let phase = match before {
+            Some(_) => Phase::Lasting,
+            None if is_impact => Phase::Impact,
+            None => Phase::Beginning,
+        };
         let is_rigid = is_unresolved && is_new && rest_velocity.is_some() && (is_impact || gap >= 0.0);
         let resolved_bristle = if is_rigid { resolved } else { planned } / BRISTLE_SHARE;
         let is_soft = law.compliance.exponent == 1.0 && is_unresolved && !is_rigid;
@@ -212,11 +226,10 @@ impl TouchPoint {
             bristle,
             stiffness,
             compliance: step.compliance,
-            is_new,
+            phase,
             is_unresolved,
             approach: closing,
             impact_velocity,
-            is_impact,
             bound: 0.0,
         };
         found.bound = found.friction_bound(before.map_or(0.0, |touch| touch.normal), 0.0);
@@ -266,7 +279,8 @@ impl TouchPoint {
     /// Whether the touch lasted, or began at rest, before a step of `size` [s].
     pub(super) fn lasts_from(&self, size: f64) -> bool {
         let rest = self.rest_velocity();
-        self.is_unresolved && (!self.is_new || self.approach <= rest && self.place.gap <= rest * size)
+        self.is_unresolved
+            && (self.phase == Phase::Lasting || self.approach <= rest && self.place.gap <= rest * size)
     }
 
     /// Gap at the end of the step beyond the penetration without force [m].
@@ -310,7 +324,7 @@ impl TouchPoint {
 
     /// μ(s) N at a normal force [N] and a sliding velocity [m/s].
     fn friction_bound(&self, normal: f64, velocity: f64) -> f64 {
-        if self.is_impact { 0.0 } else { self.friction_of(normal, velocity) }
+        if self.phase == Phase::Impact { 0.0 } else { self.friction_of(normal, velocity) }
     }
 
     /// The same for an impact.
