@@ -62,6 +62,8 @@ pub struct Layer {
 pub struct AreaLoad {
     /// Of a pressure one, of a force per area three components over u, v and t.
     pub components: Vec<Formula>,
+    /// Whether a pressure acts on the face of the normal.
+    pub is_on_top: bool,
     /// Rotation of the axes of three components.
     pub axes: Motion,
     /// Where it is.
@@ -162,7 +164,13 @@ pub(super) fn keys() -> Vec<Key> {
             "pressure",
             Shape::AreaSize,
             "Pa",
-            "force per area on the face of the normal, against the normal, which it follows: an expression of u, v and t",
+            "force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v and t",
+        ),
+        optional(
+            "pressure_on_top",
+            Shape::AreaSize,
+            "Pa",
+            "force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v and t",
         ),
         optional(
             "force_per_area",
@@ -721,16 +729,23 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer
 fn loads(reader: &Reader<'_, '_>) -> Option<Vec<AreaLoad>> {
     let mut loads = Vec::new();
     let known = ["u", "v", "t"];
-    if let Some(node) = reader.node("pressure") {
-        let components = vec![formula(reader, node, &reader.words("pressure"), &known)?];
-        loads.push(AreaLoad { components, axes: Motion::identity(), span: node.span });
+    for (key, is_on_top) in [("pressure", false), ("pressure_on_top", true)] {
+        if let Some(node) = reader.node(key) {
+            let components = vec![formula(reader, node, &reader.words(key), &known)?];
+            loads.push(AreaLoad { components, is_on_top, axes: Motion::identity(), span: node.span });
+        }
     }
     if let Some(node) = reader.node("force_per_area") {
         let what = reader.words("force_per_area");
         let list = reader.context.list(node, 3, &what)?;
         let read: Vec<_> = list.iter().map(|entry| formula(reader, entry, &what, &known)).collect();
         let components = read.into_iter().collect::<Option<_>>()?;
-        loads.push(AreaLoad { components, axes: reader.context.frame(reader.scope)?, span: node.span });
+        loads.push(AreaLoad {
+            components,
+            is_on_top: false,
+            axes: reader.context.frame(reader.scope)?,
+            span: node.span,
+        });
     }
     Some(loads)
 }

@@ -74,7 +74,10 @@ fn add_load(
         let mut contribution = Contribution::to(builder.model());
         for (index, element) in shell.mesh.elements.iter().enumerate() {
             let function = function(document, (shell, load), pressure, shell.mesh.middle(index))?;
-            let nodes = element.map(|node| surface.nodes[node]);
+            let mut nodes = element.map(|node| surface.nodes[node]);
+            if load.is_on_top {
+                nodes.reverse();
+            }
             contribution = contribution.with(Pressure::new(nodes, function));
         }
         builder.add(contribution);

@@ -133,7 +133,7 @@ fn ring(pressure: f64, deviation: f64, analysis: &str) -> String {
     format!(
         "lissom = 1\n[materials.m]\nE = 70e9\nnu = 0.3\ndensity = 2700\n[shells.s]\n\
          surface = [\"(0.4 + {deviation}*cos(pi*u))*cos(pi/2*u)\", \"(0.4 + {deviation}*cos(pi*u))*sin(pi/2*u)\", \"0.05*v\"]\n\
-         divisions = [16, 1]\nthickness = 0.003\nmaterial = \"m\"\npressure = \"{pressure}*t\"\n{}{analysis}",
+         divisions = [16, 1]\nthickness = 0.003\nmaterial = \"m\"\npressure_on_top = \"{pressure}*t\"\n{}{analysis}",
         held.concat()
     )
 }

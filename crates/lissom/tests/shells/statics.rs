@@ -147,7 +147,7 @@ fn an_edge_between_two_shells_is_a_hinge() {
 #[test]
 fn pressure_in_a_tube_stretches_its_circumference() {
     let text = "lissom = 1\n[materials.rubber]\nE = 1e6\nnu = 0\ndensity = 1000\n[shells.tube]\n\
-                surface = [\"0.5*cos(2*pi*u)\", \"0.5*sin(2*pi*u)\", \"v\"]\ndivisions = [32, 4]\njoin = true\nthickness = 0.001\nmaterial = \"rubber\"\npressure = -10\n\
+                surface = [\"0.5*cos(2*pi*u)\", \"0.5*sin(2*pi*u)\", \"v\"]\ndivisions = [32, 4]\njoin = true\nthickness = 0.001\nmaterial = \"rubber\"\npressure = 10\n\
                 [joints.end]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube.south\"\naxis = \"z\"\n\
                 [joints.hold]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube@0,0\"\naxis = \"y\"\n\
                 [joints.opposite]\nkind = \"point_in_plane\"\nbase = \"ground\"\ntip = \"tube@0.5,0\"\naxis = \"y\"\n\

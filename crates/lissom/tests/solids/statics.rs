@@ -205,7 +205,7 @@ fn pressure_on_a_shell_and_a_solid_has_one_sign() {
     let rest = "material = \"m\"\n[joints.r]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"p.west\"\n[outputs.o]\nkind = \"displacement\"\n";
     let head = "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0\ndensity = 1000\n";
     let shell = format!(
-        "{head}[shells.p]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 0.5, 0], [0, 0.5, 0]]\ndivisions = [8, 4]\nthickness = 0.05\npressure = 500\n{rest}of = \"p@1,0.5\"\n"
+        "{head}[shells.p]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 0.5, 0], [0, 0.5, 0]]\ndivisions = [8, 4]\nthickness = 0.05\npressure_on_top = 500\n{rest}of = \"p@1,0.5\"\n"
     );
     let solid = format!(
         "{head}[solids.p]\nsize = [1, 0.5, 0.05]\ndivisions = [8, 4, 1]\npressure = {{ top = 500 }}\n{rest}of = \"p@1,0.5,1\"\n"

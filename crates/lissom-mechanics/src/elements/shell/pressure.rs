@@ -1,9 +1,9 @@
-//! Pressure on the face of a shell element on the side of its normal: against its present normal, as on a face of a solid.
+//! Pressure on a shell element, along its present normal.
 //!
 //! Legend: p pressure, N bilinear functions, n normal times area per r and s.
 //!
 //! ```text
-//! f_I = -p Σ N_I n,     n = x,r × x,s,      δn = N_J,r δx_J × x,s + N_J,s x,r × δx_J
+//! f_I = p Σ N_I n,      n = x,r × x,s,      δn = N_J,r δx_J × x,s + N_J,s x,r × δx_J
 //! ```
 
 use lissom_motion::{Matrix3, Vector3, skew};
@@ -17,12 +17,12 @@ use crate::registry::Function;
 #[derive(Clone, Debug)]
 pub struct Pressure {
     nodes: [NodeId; NODES],
-    /// Force per area against the normal [Pa].
+    /// Force per area along the normal [Pa].
     pressure: Function,
 }
 
 impl Pressure {
-    /// Pressure against the normal [Pa] on the quadrilateral between `nodes`, counterclockwise about the normal.
+    /// Pressure along the normal [Pa] on the quadrilateral between `nodes`, counterclockwise about the normal.
     pub fn new(nodes: [NodeId; NODES], pressure: Function) -> Self {
         Self { nodes, pressure }
     }
@@ -58,7 +58,7 @@ impl Element for Pressure {
         let pressure = self.pressure.value(at.time);
         for (i, force) in self.areas(at).0.iter().enumerate() {
             let force = at.nodes[self.nodes[i]].frame.rotation.apply_inverse(&(pressure * force));
-            out[6 * i..].iter_mut().zip(&force).for_each(|(sum, value)| *sum += value);
+            out[6 * i..].iter_mut().zip(&force).for_each(|(sum, value)| *sum -= value);
         }
     }
 
@@ -69,11 +69,11 @@ impl Element for Pressure {
         for i in 0..NODES {
             let back = rotations[i].transpose();
             for j in 0..NODES {
-                let block = pressure * (back * slopes[i][j] * rotations[j]);
+                let block = -pressure * (back * slopes[i][j] * rotations[j]);
                 add_block(&mut out.stiffness, 6 * NODES, (6 * i, 6 * j), &block);
             }
             let turning = skew(&(pressure * (back * forces[i])));
-            add_block(&mut out.stiffness, 6 * NODES, (6 * i, 6 * i + 3), &turning);
+            add_block(&mut out.stiffness, 6 * NODES, (6 * i, 6 * i + 3), &-turning);
         }
     }
 
