@@ -146,10 +146,11 @@ impl NearPoints {
             let [base, tip] = parts.map(|part| part as usize);
             let nodes = [base, tip].map(|part| set.parts[part].node);
             let compliance = compliances[base] + compliances[tip];
-            let step = StepOfPoint { size, planned: self.planned, compliance, is_first: self.is_first };
+            let radius = set.parts[base].radius.min(set.parts[tip].radius);
+            let step =
+                StepOfPoint { size, radius, planned: self.planned, compliance, is_first: self.is_first };
             let frames = nodes.map(|node| start.nodes[node].frame);
             let path = FreePath::of(nodes, (start, self.gravity), size);
-            let radius = set.parts[base].radius.min(set.parts[tip].radius);
             let reach = travel[base] + travel[tip];
             for (point, (meeting, law)) in own.iter().enumerate() {
                 let key = TouchKey { rule, parts, point: point as u32 };

@@ -41,8 +41,6 @@ const SLOW: f64 = 1e-3;
 /// Largest product of the dissipation factor and the velocity of impact of touches that steps do not resolve: parts that come to rest with
 /// a small restitution would take seconds to sink to their depth.
 const SETTLING: f64 = 0.1;
-/// Change of the gap between two steps over the path of the parts in a step above which it is a jump.
-const JUMP: f64 = 0.5;
 /// R over w of a touch in the first step of an impact.
 const NEAR_RIGID: f64 = 1e-4;
 
@@ -55,6 +53,8 @@ pub(super) struct StepOfPoint {
     pub(super) planned: f64,
     /// Inverse effective mass w of both parts [1/kg].
     pub(super) compliance: f64,
+    /// Radius of the smaller part [m].
+    pub(super) radius: f64,
     /// Whether the motion begins: parts that overlap then are pushed apart.
     pub(super) is_first: bool,
 }
@@ -182,14 +182,17 @@ impl TouchPoint {
         let is_new = before.is_none();
         let relief = match before {
             Some(touch) => {
-                // Beyond what the motion explains the gap has jumped, as where another part of an edge is nearest now.
-                let speed = nodes.iter().zip(&arms).map(|(&node, arm)| {
+                // Beyond what turns and curvatures explain the gap has jumped, as where another part of an edge is nearest now.
+                let motions = nodes.iter().zip(&arms).map(|(&node, arm)| {
                     let (velocity, spin) = split(&start.nodes[node].twist);
-                    velocity.norm() + spin.norm() * arm.norm()
+                    [velocity.norm() + spin.norm() * arm.norm(), spin.norm()]
                 });
-                let path = step.size * (JUMP * speed.sum::<f64>() + rest_velocity.unwrap_or(SLOW));
+                let [speed, spin] = motions.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+                let path = step.size * speed;
+                let curved = path * (step.size * spin + path / step.radius);
+                let allowed = curved + step.size * rest_velocity.unwrap_or(SLOW);
                 let deeper = touch.gap - gap;
-                touch.relief + if deeper > path { deeper } else { 0.0 }
+                touch.relief + if deeper > allowed { deeper } else { 0.0 }
             }
             None if step.is_first => 0.0,
             None => (-gap).max(0.0),
@@ -569,7 +572,7 @@ mod tests {
         };
         let meetings = set.meetings_of(0, [0, 1]).expect("solids").expect("they touch");
         let (meeting, law) = &meetings[0];
-        let step = StepOfPoint { size, planned: size, compliance: 2.0, is_first: true };
+        let step = StepOfPoint { size, planned: size, compliance: 2.0, radius: 0.1, is_first: true };
         let nodes = [GROUND, NodeId::new(1)];
         let place = Place::of(meeting, nodes.map(|node| at.nodes[node].frame), 0.1).expect("near");
         TouchPoint::at((TouchKey::default(), meeting, law), nodes, (&at, step), (place, None))

@@ -66,7 +66,8 @@ class Shell(Entry):
         plies: layers of a laminate from the bottom to the top of the normal; a list of layers, or nothing.
         direction: projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh; a direction, or nothing.
         fold_angle: largest angle between elements of a mesh that count as one smooth surface; default 0.52 [rad]; a number from 0 to 3.2, or nothing.
-        pressure: force per area along the normal, which it follows: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
+        pressure: force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
+        pressure_on_top: force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
         force_per_area: in global axes, fixed in direction: three numbers or expressions of u, v and t [Pa]; three expressions of `u`, `v` and `t`, or nothing.
         sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
     """
@@ -89,6 +90,7 @@ class Shell(Entry):
     direction: Vector | str | None = None
     fold_angle: Number | None = None
     pressure: Number | None = None
+    pressure_on_top: Number | None = None
     force_per_area: Vector | None = None
     sets: Table | None = None
 

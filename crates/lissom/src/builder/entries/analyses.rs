@@ -91,9 +91,13 @@ entry! {
 }
 
 keys! {
-    [Dynamics, Statics, Path, Buckling, Modes]
+    [Dynamics, Statics, Modes]
     /// First time; default 0 \[s\].
     start: f64 = "start";
+}
+
+keys! {
+    [Dynamics, Statics, Path, Buckling, Modes]
     /// Scale of the equations; default `"physical"`.
     scaling: words::Scaling = "scaling";
     /// Equilibration of rows and columns of the scaled tangent; default `true`.
@@ -120,4 +124,10 @@ keys! {
     frames_per_second: f64 = "frames_per_second";
     /// Part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all.
     statistics_window: String = "statistics_window";
+}
+
+keys! {
+    [Path, Buckling]
+    /// Instant at which loads and drives are evaluated; default 1 \[s\].
+    start: f64 = "start";
 }

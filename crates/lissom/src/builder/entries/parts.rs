@@ -69,8 +69,10 @@ entry! {
     direction: [f64; 3] = "direction";
     /// Largest angle between elements of a mesh that count as one smooth surface; default 0.52 \[rad\].
     fold_angle: f64 = "fold_angle";
-    /// Force per area along the normal, which it follows: an expression of u, v and t \[Pa\].
+    /// Force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v and t \[Pa\].
     pressure: Expression = "pressure";
+    /// Force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v and t \[Pa\].
+    pressure_on_top: Expression = "pressure_on_top";
     /// In global axes, fixed in direction: three numbers or expressions of u, v and t \[Pa\].
     force_per_area: [Expression; 3] = "force_per_area";
 }
