@@ -12,6 +12,7 @@ pub(crate) mod equations;
 pub(crate) mod error_estimate;
 mod error_of_forces;
 mod history;
+mod impacts;
 pub(crate) mod predictor;
 pub(crate) mod projection;
 pub(crate) mod workspace;

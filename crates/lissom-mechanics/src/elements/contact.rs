@@ -6,8 +6,9 @@
 //! z_c deflection at which they slip, μ(s) = μ + (μ_s - μ) exp(-(|s|/v_s)²); η variation of the tip's frame.
 //!
 //! ```text
-//! f = N n - N μ(s) [z_t/max(z_c, |z_t|) + max(0, 1 - |z_t|²/z_c²) d],      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
+//! f = N n - N μ(s) ⌊⌊z_t/z_c⌋ + max(0, 1 - |z_t|²/z_c²) d⌋,      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
 //! z' = s - α(|z|/z_c) max(0, s·ẑ) ẑ in contact,  0 without,      ẑ = z/|z|,      α(r) = 0 below r₀, r from 1 on, cubic between
+//! ⌊a⌋ = a/max(1, |a|)
 //! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)
 //! δd = Rᵀδp - η_v + d × η_θ,      δu = R (δc - c × η_θ),      δ(Rᵀf) = Rᵀδf + Rᵀf × η_θ
 //! ```
@@ -150,23 +151,34 @@ impl ContactFriction {
             remaining if remaining > 0.0 => (remaining, 1.0),
             _ => (0.0, 0.0),
         };
-        let length = relative.norm();
-        let (limited, limited_by) = if length > 1.0 {
-            let unit = relative / length;
-            (unit, (Matrix3::identity() - unit * unit.transpose()) / length)
-        } else {
-            (relative, Matrix3::identity())
-        };
-        let direction = limited + remaining * damping;
+        let direction = limited(relative);
+        let total = limited(direction.value + remaining * damping);
         let damping_by = (Matrix3::identity() - damping * damping.transpose()) * (root / velocity);
         Share {
-            force: coefficient * direction,
-            by_sliding: coefficient * remaining * damping_by
-                - direction * sliding.transpose() * (2.0 * more / (velocity * velocity)),
-            by_bristles: (limited_by - damping * relative.transpose() * (2.0 * slope))
+            force: coefficient * total.value,
+            by_sliding: coefficient * remaining * (total.by * damping_by)
+                - total.value * sliding.transpose() * (2.0 * more / (velocity * velocity)),
+            by_bristles: total.by
+                * (direction.by - damping * relative.transpose() * (2.0 * slope))
                 * (coefficient / self.deflection),
         }
     }
+}
+
+/// A vector of at most unit length, with its derivative.
+struct Limited {
+    value: Vector3,
+    by: Matrix3,
+}
+
+/// The vector, or its direction if it is longer than one.
+fn limited(vector: Vector3) -> Limited {
+    let length = vector.norm();
+    if length <= 1.0 {
+        return Limited { value: vector, by: Matrix3::identity() };
+    }
+    let unit = vector / length;
+    Limited { value: unit, by: (Matrix3::identity() - unit * unit.transpose()) / length }
 }
 
 /// Two solids that may touch.

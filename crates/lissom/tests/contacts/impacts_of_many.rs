@@ -70,7 +70,7 @@ fn impacts_have_their_friction() {
     }
 }
 
-/// A body that stands on light feet sinks to N/k and stays there, and one that is dropped on them comes to rest there.
+/// A body that stands on light feet sinks to N/k and stays there, and one that is dropped on them rests there in the end.
 #[test]
 fn light_feet_carry_a_heavy_body() {
     for (mass, height, step) in [(0.02, 0.0, 1e-3), (0.02, 0.0, 1e-2), (0.5, 0.03, 1e-3)] {

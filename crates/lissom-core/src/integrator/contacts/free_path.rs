@@ -31,7 +31,7 @@ pub(super) struct FreePath {
 
 /// An instant of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Instant {
+pub(super) struct Encounter {
     /// Since the start of the step [s].
     pub(super) time: f64,
     /// Whether the parts touch there.
@@ -66,14 +66,14 @@ impl FreePath {
     }
 
     /// The first touch of a path of this `length` [m] from a `gap` [m], or the least gap.
-    pub(super) fn first_touch(&self, meeting: &Meeting, (gap, length): (f64, f64)) -> Instant {
+    pub(super) fn first_touch(&self, meeting: &Meeting, (gap, length): (f64, f64)) -> Encounter {
         // No gap closes faster.
         let speed = length / self.size * 1.05;
         let mut least = (gap, 0.0);
         let (mut time, mut own) = (0.0, gap);
         for _ in 0..MAX_GAPS {
             if own <= TOUCHES * length {
-                return Instant { time, touches: true };
+                return Encounter { time, touches: true };
             }
             time += (own / speed).max(TOUCHES * self.size);
             if time >= self.size {
@@ -85,7 +85,7 @@ impl FreePath {
                 least = (own, time);
             }
         }
-        Instant { time: least.1, touches: false }
+        Encounter { time: least.1, touches: false }
     }
 
     /// The point at an instant, with the gap at the start that leads to that of the instant along its normal.

@@ -21,14 +21,10 @@ use lissom_motion::{Vector3, Vector6};
 use lissom_solver::Pattern;
 use nalgebra::Vector2;
 
-use super::StepContacts;
 use super::touch_point::{Phase, TouchPoint, TouchState, add_friction};
-use crate::integrator::equations::StepEquations;
-use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
-use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId, Quantity};
-use crate::newton::Failure;
-use crate::saddle_point::TangentValues;
-use crate::system::{Linearization, System, TangentAssembler};
+use super::{BOUND_CHANGE, StepContacts};
+use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId};
+use crate::system::{Linearization, System};
 
 /// R over w of impacts and of touches that last.
 const YIELDING: [f64; 2] = [1e-5, 1e-4];
@@ -38,47 +34,32 @@ const STICKING: [f64; 2] = [0.03, 0.1];
 const REACHED: f64 = 0.01;
 /// Accuracy of the velocities of impacts and of touches that last, and of sticking, over that of approach.
 const ACCURACY: [f64; 2] = [1e-5, 1e-4];
-/// Largest number of times in which offsets are corrected.
-const MAX_OFFSETS: usize = 3;
-/// Largest number of shares of the rebounds.
-const MAX_SHARES: usize = 7;
-/// Energy left of what the step has lost, over the kinetic energy, with which a share is large enough.
-const UNUSED: f64 = 1e-3;
-/// Change of energy over the kinetic energy that is round-off.
-const GAIN: f64 = 1e-10;
-/// Residual over the momentum of the approach at which an iteration has converged.
-const TOLERANCE: f64 = 1e-8;
-/// Largest number of corrections, and of those in which bounds of friction follow the iterates.
-const MAX_CORRECTIONS: usize = 60;
-const FOLLOWING: usize = 15;
-/// Relative change of bounds below which they are accurate.
-const BOUND_CHANGE: f64 = 1e-3;
 
 /// A touch that takes part.
 #[derive(Clone, Debug)]
-struct Participant {
+pub(crate) struct Participant {
     /// Index among the points of the step.
-    index: usize,
-    is_impact: bool,
+    pub(crate) index: usize,
+    pub(crate) is_impact: bool,
     /// u_A [m/s] and γ_A [N s], in the axes at the end.
-    before: Vector3,
-    known: Vector3,
+    pub(crate) before: Vector3,
+    pub(crate) known: Vector3,
     /// Path of approach in the step over its size, min(φ/h, u⁻) [m/s].
-    path: f64,
+    pub(crate) path: f64,
     /// d with s = 1 [m/s].
-    departure: f64,
+    pub(crate) departure: f64,
     /// b and o [m/s].
-    bias: f64,
-    offset: Vector2<f64>,
+    pub(crate) bias: f64,
+    pub(crate) offset: Vector2<f64>,
     /// R and R_t [1/kg].
-    resistance: [f64; 2],
+    pub(crate) resistance: [f64; 2],
     /// μ γ_n [N s].
-    bound: f64,
+    pub(crate) bound: f64,
 }
 
 impl Participant {
     /// Impulse at a velocity, with its decrease by the velocity.
-    fn evaluate(&mut self, point: &TouchPoint, velocity: Vector3, follows: bool) -> TouchState {
+    pub(crate) fn evaluate(&mut self, point: &TouchPoint, velocity: Vector3, follows: bool) -> TouchState {
         let mut state = TouchState::default();
         let [yielding, sticking] = self.resistance;
         let closing = self.bias - velocity.z;
@@ -99,28 +80,28 @@ impl Participant {
 /// The velocity problem of a step.
 #[derive(Default)]
 pub(crate) struct Impacts {
-    participants: Vec<Participant>,
+    pub(crate) participants: Vec<Participant>,
     /// The same points at the end of the step, with their velocities and impulses.
-    points: Vec<TouchPoint>,
-    states: Vec<TouchState>,
+    pub(crate) points: Vec<TouchPoint>,
+    pub(crate) states: Vec<TouchState>,
     /// Changes of the velocities by a correction [m/s].
-    changes: Vec<Vector3>,
+    pub(crate) changes: Vec<Vector3>,
     /// v_B - v_A and λ, by row; zeros without impacts.
-    change: Vec<f64>,
+    pub(crate) change: Vec<f64>,
     /// Labels of the unknowns that joints and elements connect; those with touches.
-    component: Vec<u32>,
-    labels: Vec<u32>,
-    linearization: Linearization,
+    pub(crate) component: Vec<u32>,
+    pub(crate) labels: Vec<u32>,
+    pub(crate) linearization: Linearization,
     /// On the values of the system's pattern: A with G, and the tangent.
-    operator: Vec<f64>,
-    smooth: Vec<f64>,
-    right: Vec<f64>,
-    product: Vec<f64>,
+    pub(crate) operator: Vec<f64>,
+    pub(crate) smooth: Vec<f64>,
+    pub(crate) right: Vec<f64>,
+    pub(crate) product: Vec<f64>,
     /// Touches that an impact of the step has caused, by index.
-    postponed: Vec<usize>,
+    pub(crate) postponed: Vec<usize>,
     /// The best solution so far.
-    best: Vec<f64>,
-    best_states: Vec<TouchState>,
+    pub(crate) best: Vec<f64>,
+    pub(crate) best_states: Vec<TouchState>,
 }
 
 impl Impacts {
@@ -151,7 +132,7 @@ impl Impacts {
     }
 
     /// Forgets the impacts of the last step.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.participants.clear();
         self.postponed.clear();
     }
@@ -183,7 +164,7 @@ impl Impacts {
     }
 
     /// The velocities at all participants for the present change.
-    fn evaluate(&mut self, layout: &Layout, at: &Kinematics, follows: bool) {
+    pub(crate) fn evaluate(&mut self, layout: &Layout, at: &Kinematics, follows: bool) {
         let Self { participants, points, states, change, .. } = self;
         states.clear();
         for (own, point) in participants.iter_mut().zip(&*points) {
@@ -193,7 +174,7 @@ impl Impacts {
     }
 
     /// Sets the right-hand side to A Δ + Gᵀ λ - Σ Jᵀ (γ_B - γ_A), and G Δ.
-    fn residual(&mut self, (pattern, layout): (&Pattern, &Layout), at: &Kinematics) {
+    pub(crate) fn residual(&mut self, (pattern, layout): (&Pattern, &Layout), at: &Kinematics) {
         let Self { participants, points, states, change, operator, right, .. } = self;
         pattern.multiply(operator, change, right);
         for ((own, point), state) in participants.iter().zip(&*points).zip(&*states) {
@@ -202,7 +183,7 @@ impl Impacts {
     }
 
     /// Largest residual of a node over its mass and the velocity of approach.
-    fn unbalance(&self, pattern: &Pattern, layout: &Layout) -> f64 {
+    pub(crate) fn unbalance(&self, pattern: &Pattern, layout: &Layout) -> f64 {
         let diagonal =
             |row: usize| pattern.position(row, row).map_or(0.0, |position| self.operator[position]);
         let of_node = |rows: &[u32; 6]| {
@@ -222,7 +203,7 @@ impl Impacts {
     }
 
     /// Fixes the bounds of friction anew. Whether they have changed.
-    fn fix_bounds(&mut self) -> bool {
+    pub(crate) fn fix_bounds(&mut self) -> bool {
         let (mut change, mut all) = (0.0, 0.0);
         for ((own, point), state) in self.participants.iter_mut().zip(&self.points).zip(&self.states) {
             let bound = point.friction_of(state.force.z, state.displacement.xy().norm());
@@ -234,7 +215,7 @@ impl Impacts {
     }
 
     /// Corrects the offsets of pressed points for a share of the rebounds. Whether velocities are not yet accurate.
-    fn correct_offsets(&mut self, share: f64) -> bool {
+    pub(crate) fn correct_offsets(&mut self, share: f64) -> bool {
         let scale = self.approach();
         let mut is_changed = false;
         for (own, state) in self.participants.iter_mut().zip(&self.states) {
@@ -256,7 +237,7 @@ impl Impacts {
     }
 
     /// Begins a solution with a share of the rebounds.
-    fn begin(&mut self, share: f64) {
+    pub(crate) fn begin(&mut self, share: f64) {
         self.change.fill(0.0);
         for own in &mut self.participants {
             own.bias = share * own.departure;
@@ -266,7 +247,7 @@ impl Impacts {
 }
 
 /// Rows of a node in a vector by row.
-fn of_node(layout: &Layout, node: NodeId, values: &[f64]) -> Vector6 {
+pub(crate) fn of_node(layout: &Layout, node: NodeId, values: &[f64]) -> Vector6 {
     let rows = layout.rows_of_node(node);
     Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { values[rows[k] as usize] })
 }
@@ -303,7 +284,12 @@ fn label_of(labels: &[u32], layout: &Layout, node: NodeId) -> Option<usize> {
 impl StepContacts {
     /// Finds the impacts of a step of `size` [s] from the `start` that ended `at` these positions, and the touches that take part.
     /// Whether there are any.
-    fn find_impacts(&mut self, layout: &Layout, (start, at): (&Kinematics, &Kinematics), size: f64) -> bool {
+    pub(crate) fn find_impacts(
+        &mut self,
+        layout: &Layout,
+        (start, at): (&Kinematics, &Kinematics),
+        size: f64,
+    ) -> bool {
         let Self { near, states, impacts, .. } = self;
         let is_impact = |point: &TouchPoint, state: &TouchState| {
             let reached = REACHED * size * point.approach;
@@ -365,302 +351,5 @@ impl StepContacts {
             impacts.points.push(placed);
         }
         true
-    }
-}
-
-impl StepEquations<'_> {
-    /// Finds the impacts of the step that was solved, and the velocities after them.
-    pub(crate) fn resolve_impacts(&mut self) -> Result<(), Failure> {
-        let Some(mut contacts) = self.work.contacts.take() else { return Ok(()) };
-        contacts.impacts.clear();
-        let (layout, size) = (self.system.layout(), self.scaled.step_size());
-        let motions = (&self.start.kinematics, &self.work.motions[0].at);
-        let result = if contacts.find_impacts(layout, motions, size) {
-            self.solve_impacts(&mut contacts)
-        } else {
-            Ok(())
-        };
-        self.work.contacts = Some(contacts);
-        result
-    }
-
-    fn solve_impacts(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
-        self.linearize_end(&mut contacts.impacts);
-        let kinetic = self.kinetic_energy(&mut contacts.impacts);
-        let lost = self.lost(contacts);
-        self.find_departures(contacts)?;
-        // Shares and what they return: the largest that gains no energy, and the smallest that does.
-        let (mut low, mut high) = ([0.0; 2], [1.0, f64::INFINITY]);
-        let mut share = 1.0;
-        let mut is_found = false;
-        for count in 0..MAX_SHARES {
-            contacts.impacts.begin(share);
-            for _ in 0..=MAX_OFFSETS {
-                self.converge(contacts)?;
-                if !contacts.impacts.correct_offsets(share) {
-                    break;
-                }
-            }
-            let returned = self.returned(&mut contacts.impacts);
-            let impacts = &mut contacts.impacts;
-            if returned - lost <= GAIN * kinetic {
-                low = [share, returned];
-                is_found = true;
-                std::mem::swap(&mut impacts.best, &mut impacts.change);
-                impacts.best_states.clone_from(&impacts.states);
-                if count == 0 || lost - returned < UNUSED * kinetic || count + 2 >= MAX_SHARES {
-                    break;
-                }
-            } else {
-                high = [share, returned];
-            }
-            let missing = (lost - low[1]).max(0.0) / (high[1] - low[1]);
-            let part = if low[0] > 0.0 { 0.9 * missing } else { 0.99 * missing.sqrt() };
-            share = low[0] + (high[0] - low[0]) * part.clamp(0.05, 0.98);
-        }
-        let impacts = &mut contacts.impacts;
-        if is_found {
-            std::mem::swap(&mut impacts.best, &mut impacts.change);
-            std::mem::swap(&mut impacts.best_states, &mut impacts.states);
-            for own in &mut impacts.participants {
-                own.departure *= low[0];
-            }
-        } else {
-            // The step stops what meets.
-            impacts.clear();
-        }
-        self.note_scales();
-        Ok(())
-    }
-
-    /// Sets the operators at the end of the step.
-    fn linearize_end(&mut self, impacts: &mut Impacts) {
-        let (system, at) = (self.system, &self.work.motions[0].at);
-        let layout = system.layout();
-        let pattern = &system.structure().pattern;
-        let zero = vec![0.0; layout.multiplier_count];
-        let still = vec![crate::kinematics::MotionChange::none(); at.nodes.len()];
-        let unchanged = vec![0.0; at.coordinates.len()];
-        let point = Point {
-            at,
-            stressed: at.into(),
-            increments: Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None },
-            multipliers: &zero,
-            violations: &zero,
-            augmentation: Augmentation::of_lengths(self.scaled.unit(Quantity::Angle)),
-        };
-        let Impacts { linearization: all, operator, smooth, .. } = impacts;
-        system.linearize(&point, Chart::Body, all);
-        operator.clear();
-        operator.extend_from_slice(&all.mass);
-        // States have no inertia.
-        for (row, ..) in layout.states() {
-            if let Some(diagonal) = pattern.position(row, row) {
-                operator[diagonal] += 1.0;
-            }
-        }
-        if system.has_stiff_elements() {
-            all.damping.fill(0.0);
-            all.stiffness.fill(0.0);
-            let mass = std::mem::take(&mut all.mass);
-            all.mass = vec![0.0; mass.len()];
-            let mut scratch = all.scratch.take().unwrap_or_default();
-            system.linearize_elements(true, at, &mut scratch, &mut TangentAssembler::Separate(all));
-            all.scratch = Some(scratch);
-            all.mass = mass;
-            let size = self.scaled.step_size();
-            for ((value, damping), stiffness) in operator.iter_mut().zip(&all.damping).zip(&all.stiffness) {
-                *value += size * (damping + size * stiffness);
-            }
-        }
-        smooth.clear();
-        let scale = self.scaled.scale();
-        let constraints = all.gram.iter().zip(&all.constraint);
-        smooth.extend(
-            operator
-                .iter()
-                .zip(constraints)
-                .map(|(own, (gram, constraint))| own + scale * (gram + constraint)),
-        );
-        operator.iter_mut().zip(&all.constraint).for_each(|(own, constraint)| *own += constraint);
-    }
-
-    /// Velocities without the touches of the impacts, and from them the departures.
-    fn find_departures(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
-        let layout = self.system.layout();
-        let impacts = &mut contacts.impacts;
-        impacts.change.fill(0.0);
-        impacts.right.fill(0.0);
-        let at = &self.work.motions[0].at;
-        for (own, point) in impacts.participants.iter().zip(&impacts.points) {
-            point.add_wrenches(&own.known, (at, layout), &mut impacts.right);
-        }
-        impacts.states.clear();
-        impacts.states.resize(impacts.points.len(), TouchState::default());
-        self.solve_velocities(contacts)?;
-        let (at, impacts) = (&self.work.motions[0].at, &mut contacts.impacts);
-        let right = &impacts.right;
-        for (own, point) in impacts.participants.iter_mut().zip(&impacts.points) {
-            let Some(restitution) = point.restitution().filter(|_| own.is_impact) else { continue };
-            // The solution is subtracted.
-            let free = own.before.z - point.change(at, |node| of_node(layout, node, right)).z;
-            let arrival = point.approach;
-            let squared = arrival * arrival - 2.0 * (arrival + free) * own.path;
-            own.departure = restitution * squared.max(0.0).sqrt();
-        }
-        Ok(())
-    }
-
-    /// Newton's method for the velocities with the present offsets.
-    fn converge(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
-        let system = self.system;
-        let (layout, pattern) = (system.layout(), &*system.structure().pattern);
-        let mut corrections = 0;
-        let mut fixed = 0;
-        loop {
-            let (at, impacts) = (&self.work.motions[0].at, &mut contacts.impacts);
-            impacts.evaluate(layout, at, corrections <= FOLLOWING);
-            impacts.residual((pattern, layout), at);
-            let unbalance = impacts.unbalance(pattern, layout);
-            if !unbalance.is_finite() {
-                return Err(Failure::NotFinite { iterations: corrections });
-            }
-            if unbalance <= TOLERANCE {
-                if corrections <= FOLLOWING || fixed >= MAX_OFFSETS || !impacts.fix_bounds() {
-                    return Ok(());
-                }
-                fixed += 1;
-            }
-            if corrections >= MAX_CORRECTIONS {
-                return Err(Failure::NotConverged { iterations: corrections, correction: unbalance });
-            }
-            corrections += 1;
-            let slope_of = |impacts: &Impacts, residual: &[f64]| -> f64 {
-                -impacts.right.iter().zip(residual).map(|(change, own)| change * own).sum::<f64>()
-            };
-            contacts.impacts.product.clone_from(&contacts.impacts.right);
-            self.solve_velocities(contacts)?;
-            let (at, impacts) = (&self.work.motions[0].at, &mut contacts.impacts);
-            let count = layout.coordinate_count();
-            let slope = slope_of(impacts, &impacts.product[..count]);
-            let Impacts { participants, points, states, changes, change, right, .. } = impacts;
-            changes.clear();
-            changes.extend(points.iter().map(|point| -point.change(at, |node| of_node(layout, node, right))));
-            let steepening = |(state, change): (&TouchState, &Vector3)| change.dot(&(state.slope * change));
-            let rise = (-slope - states.iter().zip(&*changes).map(steepening).sum::<f64>()).max(0.0);
-            let known: f64 =
-                states.iter().zip(&*changes).map(|(state, change)| state.force.dot(change)).sum();
-            let touches = |share: f64| -> f64 {
-                let each = participants.iter().zip(&*points).zip(states.iter().zip(&*changes));
-                each.map(|((own, point), (state, change))| {
-                    let velocity = state.displacement + share * change;
-                    own.clone().evaluate(point, velocity, false).force.dot(change)
-                })
-                .sum()
-            };
-            let share = super::minimum_along(slope, |share| slope + known + share * rise - touches(share));
-            for (value, correction) in change.iter_mut().zip(&*right) {
-                *value -= share * correction;
-            }
-        }
-    }
-
-    /// Solves for a correction of the velocities and the multipliers, in place of the right-hand side, with the slopes of the states.
-    fn solve_velocities(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
-        let layout = self.system.layout();
-        let StepContacts { impacts, pattern, .. } = &mut *contacts;
-        if pattern.follow((layout, false), &impacts.points, &impacts.states) {
-            self.take_pattern(contacts);
-        }
-        let StepContacts { impacts, pattern, .. } = contacts;
-        let TangentValues::Real(mut values) = self.work.tangent.matrices.take_values(0) else {
-            unreachable!("the scheme has one stage")
-        };
-        let touches = (&impacts.points[..], &impacts.states[..], 1.0);
-        pattern.assemble(&impacts.smooth, touches, (&self.work.motions[0].at, layout), &mut values);
-        self.work.tangent.matrices.set_values(0, TangentValues::Real(values));
-        let scale = self.scaled.scale();
-        self.work.tangent.renew(&pattern.structure, scale).map_err(Failure::Factor)?;
-        self.work.newton.effort.factorizations += 1;
-        let right = &mut self.work.residuals[0];
-        right.copy_from_slice(&impacts.right);
-        let count = layout.coordinate_count();
-        right[count..].iter_mut().for_each(|value| *value *= scale);
-        self.work.tangent.scale(right);
-        self.work.tangent.matrices.solve(&self.scheme.coupling, &mut self.work.residuals);
-        let solution = &mut self.work.residuals[0];
-        self.work.tangent.scale(solution);
-        solution[count..].iter_mut().for_each(|value| *value *= scale);
-        impacts.right.copy_from_slice(solution);
-        Ok(())
-    }
-
-    /// ½ v_Aᵀ M v_A [J].
-    fn kinetic_energy(&self, impacts: &mut Impacts) -> f64 {
-        let pattern = &self.system.structure().pattern;
-        let Impacts { linearization, right, product, .. } = impacts;
-        velocities(self.system.layout(), &self.work.motions[0].at, right);
-        pattern.multiply(&linearization.mass, right, product);
-        0.5 * dot(right, product)
-    }
-
-    /// Energy that the step has lost [J]: ½ (v_A - v)ᵀ M (v_A - v), and what its touches have dissipated.
-    fn lost(&self, contacts: &mut StepContacts) -> f64 {
-        let layout = self.system.layout();
-        let pattern = &self.system.structure().pattern;
-        let (start, at) = (&self.start.kinematics, &self.work.motions[0].at);
-        let StepContacts { near, states, impacts, .. } = contacts;
-        let Impacts { linearization, right, product, .. } = impacts;
-        velocities(layout, at, right);
-        for ((rows, before), after) in layout.node_rows.iter().zip(&start.nodes).zip(&at.nodes) {
-            let turned =
-                |vector: Vector3| after.frame.rotation.apply_inverse(&before.frame.rotation.apply(&vector));
-            let (velocity, spin) = crate::kinematics::split(&before.twist);
-            let (velocity, spin) = (turned(velocity), turned(spin));
-            for (k, &row) in rows.iter().enumerate().filter(|(_, row)| **row != LOCKED) {
-                right[row as usize] -= if k < 3 { velocity[k] } else { spin[k - 3] };
-            }
-        }
-        for (&row, before) in layout.coordinate_rows.iter().zip(&start.coordinates) {
-            right[row as usize] -= before.rate;
-        }
-        pattern.multiply(&linearization.mass, right, product);
-        let stored: f64 = start.touches.iter().map(|touch| touch.energy).sum();
-        let dissipated = |(point, state): (&TouchPoint, &TouchState)| {
-            -state.force.dot(&state.displacement) - point.energy(state)
-        };
-        0.5 * dot(right, product) + stored + near.points.iter().zip(&*states).map(dissipated).sum::<f64>()
-    }
-
-    /// Kinetic energy that the impacts return [J].
-    fn returned(&self, impacts: &mut Impacts) -> f64 {
-        let pattern = &self.system.structure().pattern;
-        let Impacts { linearization, right, product, change, .. } = impacts;
-        velocities(self.system.layout(), &self.work.motions[0].at, right);
-        for (velocity, change) in right.iter_mut().zip(&*change) {
-            *velocity += 0.5 * change;
-        }
-        pattern.multiply(&linearization.mass, right, product);
-        dot(&change[..self.system.layout().coordinate_count()], product)
-    }
-}
-
-fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| a * b).sum()
-}
-
-/// Velocities by row; zeros for states and multipliers.
-fn velocities(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
-    out.fill(0.0);
-    for (rows, node) in layout.node_rows.iter().zip(&at.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|(_, row)| **row != LOCKED) {
-            out[row as usize] = node.twist[k];
-        }
-    }
-    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&at.coordinates) {
-        out[row as usize] = coordinate.rate;
-    }
-    for (row, ..) in layout.states() {
-        out[row] = 0.0;
     }
 }

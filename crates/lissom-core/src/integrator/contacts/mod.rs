@@ -14,7 +14,7 @@
 
 mod coupled_pattern;
 mod free_path;
-mod impact;
+pub(crate) mod impact;
 mod near_points;
 mod touch_point;
 
@@ -24,7 +24,7 @@ use lissom_solver::SolverKind;
 use self::coupled_pattern::CoupledPattern;
 use self::impact::Impacts;
 use self::near_points::NearPoints;
-pub(crate) use self::touch_point::TouchState;
+pub(crate) use self::touch_point::{TouchPoint, TouchState};
 use crate::contact::set::Touch;
 use crate::kinematics::{Kinematics, Layout, NodeId};
 use crate::saddle_point::TangentValues;
@@ -32,7 +32,7 @@ use crate::scaling::StageMotion;
 use crate::system::System;
 
 /// Corrections in which bounds of friction follow the iterates. From then on they are fixed until the iterations converge.
-const FOLLOWING: usize = 15;
+pub(crate) const FOLLOWING: usize = 15;
 /// Largest number of times in a step that bounds are fixed anew.
 const MAX_ROUNDS: usize = 10;
 /// Relative change of bounds below which they are accurate.
@@ -202,7 +202,7 @@ impl StepContacts {
 }
 
 /// Share of a correction at which the slope `at` along it vanishes, which is `slope` at its start.
-fn minimum_along(slope: f64, at: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn minimum_along(slope: f64, at: impl Fn(f64) -> f64) -> f64 {
     let end = at(1.0);
     if !(slope < 0.0 && end > WHOLE * -slope) {
         return 1.0;

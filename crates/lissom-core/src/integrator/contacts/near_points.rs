@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lissom_motion::{Vector3, Vector6};
 
-use super::free_path::{FreePath, Instant};
+use super::free_path::{Encounter, FreePath};
 use super::touch_point::{Phase, Place, StepOfPoint, TouchPoint};
 use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting, TouchKey};
 use crate::contact::solids::Meeting;
@@ -159,7 +159,7 @@ impl NearPoints {
                 let Some(mut place) = Place::of(meeting, frames, reach) else { continue };
                 let length = path.length(meeting, &place);
                 if before.is_none() && is_round(meeting) && length > SHORT * radius && place.gap > 0.0 {
-                    let Instant { time, .. } = path.first_touch(meeting, (place.gap, length));
+                    let Encounter { time, .. } = path.first_touch(meeting, (place.gap, length));
                     place = path.place_at(meeting, time).unwrap_or(place);
                 }
                 points.push(TouchPoint::at((key, meeting, law), nodes, (start, step), (place, before)));
@@ -190,7 +190,7 @@ impl NearPoints {
             let radius =
                 parts.map(|part| self.set.parts[part].radius).into_iter().fold(f64::INFINITY, f64::min);
             if length > LONG * radius && place.gap > 0.0 {
-                let Instant { time, touches } = path.first_touch(meeting, (place.gap, length));
+                let Encounter { time, touches } = path.first_touch(meeting, (place.gap, length));
                 if touches && time > DIVIDED[0] * size && time < DIVIDED[1] * size {
                     first = first.min(time);
                 }

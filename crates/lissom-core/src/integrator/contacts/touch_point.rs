@@ -37,31 +37,31 @@ const BRISTLE_SHARE: f64 = 0.1;
 /// Steps longer than this share of a touch lose more than 1 % of its velocity: (π h/T)²/2 per period 2 T/π.
 const RESOLVED_SHARE: f64 = 0.002;
 /// Velocity of impact of laws without a velocity of rest below which touches have the same duration [m/s].
-const SLOW: f64 = 1e-3;
-/// Largest product of the dissipation factor and the velocity of impact of touches that steps do not resolve: parts that come to rest with
-/// a small restitution would take seconds to sink to their depth.
+const SLOWEST_IMPACT: f64 = 1e-3;
+/// Largest product of the dissipation factor and the velocity of impact of touches that steps do not resolve: parts at rest with a
+/// small restitution would take seconds to sink to their depth.
 const SETTLING: f64 = 0.1;
 /// R over w of a touch in the first step of an impact.
 const NEAR_RIGID: f64 = 1e-4;
 
 /// What a point needs of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StepOfPoint {
+pub(crate) struct StepOfPoint {
     /// Length h [s].
-    pub(super) size: f64,
+    pub(crate) size: f64,
     /// Length of the planned step that contains it [s].
-    pub(super) planned: f64,
+    pub(crate) planned: f64,
     /// Inverse effective mass w of both parts [1/kg].
-    pub(super) compliance: f64,
+    pub(crate) compliance: f64,
     /// Radius of the smaller part [m].
-    pub(super) radius: f64,
+    pub(crate) radius: f64,
     /// Whether the motion begins: parts that overlap then are pushed apart.
-    pub(super) is_first: bool,
+    pub(crate) is_first: bool,
 }
 
 /// Where a point is at the start of the step, in inertial axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// Rows t₁, t₂, n.
     axes: Matrix3,
     /// Point of contact [m].
@@ -69,14 +69,14 @@ pub(super) struct Place {
     /// From the nodes' positions to it [m].
     arms: [Vector3; 2],
     /// φ [m].
-    pub(super) gap: f64,
+    pub(crate) gap: f64,
     /// Penetration at which the solids are within each other [m].
     deepest: f64,
 }
 
 impl Place {
     /// The point of a meeting of two parts whose nodes have these frames; none if its gap is larger than `reach` [m].
-    pub(super) fn of(meeting: &Meeting, frames: [Motion; 2], reach: f64) -> Option<Self> {
+    pub(crate) fn of(meeting: &Meeting, frames: [Motion; 2], reach: f64) -> Option<Self> {
         let (base, tip) = placed(meeting, frames);
         // Of curves the value alone costs as much.
         let gap = meeting.pair.gap(&tip.position, &tip.rotation.matrix());
@@ -91,7 +91,7 @@ impl Place {
 
     /// Velocity of the tip's point relative to the base's in the axes of the point, for velocities and angular velocities of both parts in
     /// inertial axes [m/s].
-    pub(super) fn relative_velocity(&self, meeting: &Meeting, twists: [[Vector3; 2]; 2]) -> Vector3 {
+    pub(crate) fn relative_velocity(&self, meeting: &Meeting, twists: [[Vector3; 2]; 2]) -> Vector3 {
         let of = |k: usize| {
             let [velocity, spin] = twists[meeting.sides[k]];
             velocity + spin.cross(&self.arms[k])
@@ -102,7 +102,7 @@ impl Place {
 
 /// Progress of a touch at the start of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Phase {
+pub(crate) enum Phase {
     /// The parts touched at the end of the last step.
     Lasting,
     /// They did not.
@@ -134,15 +134,15 @@ pub(crate) struct TouchPoint {
     /// K [N/m].
     stiffness: f64,
     /// Inverse effective mass w [1/kg].
-    pub(super) compliance: f64,
-    pub(super) phase: Phase,
+    pub(crate) compliance: f64,
+    pub(crate) phase: Phase,
     /// Whether the touch is shorter than what the step resolves.
-    pub(super) is_unresolved: bool,
+    pub(crate) is_unresolved: bool,
     /// Velocity at which the parts approach at the start of the step [m/s].
-    pub(super) approach: f64,
+    pub(crate) approach: f64,
     impact_velocity: f64,
     /// μ N [N].
-    pub(super) bound: f64,
+    pub(crate) bound: f64,
 }
 
 /// Force at a point at some displacement, in its axes.
@@ -160,7 +160,7 @@ pub(crate) struct TouchState {
 
 impl TouchPoint {
     /// The point of a meeting of two parts with these nodes at a place in a step, which continues a touch if there was one.
-    pub(super) fn at(
+    pub(crate) fn at(
         (key, meeting, law): (TouchKey, &Meeting, &TouchLaw),
         nodes: [NodeId; 2],
         (start, step): (&Kinematics, StepOfPoint),
@@ -176,7 +176,7 @@ impl TouchPoint {
         let closing = normal.dot(&(velocity(0) - velocity(1)));
         let impact_velocity = before.map_or(closing.max(0.0), |touch| touch.impact_velocity);
         let rest_velocity = law.impact.rest_velocity();
-        let velocity = impact_velocity.max(rest_velocity.unwrap_or(SLOW));
+        let velocity = impact_velocity.max(rest_velocity.unwrap_or(SLOWEST_IMPACT));
         let duration = law.compliance.duration(1.0 / step.compliance, velocity);
         let is_unresolved = step.size > RESOLVED_SHARE * duration;
         let is_new = before.is_none();
@@ -190,7 +190,7 @@ impl TouchPoint {
                 let [speed, spin] = motions.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
                 let path = step.size * speed;
                 let curved = path * (step.size * spin + path / step.radius);
-                let allowed = curved + step.size * rest_velocity.unwrap_or(SLOW);
+                let allowed = curved + step.size * rest_velocity.unwrap_or(SLOWEST_IMPACT);
                 let deeper = touch.gap - gap;
                 touch.relief + if deeper > allowed { deeper } else { 0.0 }
             }
@@ -240,7 +240,7 @@ impl TouchPoint {
     }
 
     /// The same point at another configuration.
-    pub(super) fn placed_at(&self, meeting: &Meeting, at: &Kinematics) -> Self {
+    pub(crate) fn placed_at(&self, meeting: &Meeting, at: &Kinematics) -> Self {
         let mut nodes = self.nodes;
         for (side, node) in meeting.sides.into_iter().zip(self.nodes) {
             nodes[side] = node;
@@ -251,7 +251,7 @@ impl TouchPoint {
     }
 
     /// Velocity of the tip's point relative to the base's, in the axes of the point [m/s].
-    pub(super) fn velocity(&self, at: &Kinematics) -> Vector3 {
+    pub(crate) fn velocity(&self, at: &Kinematics) -> Vector3 {
         let of = |k: usize| {
             let motion = &at.nodes[self.nodes[k]];
             motion.velocity_at(&motion.frame.rotation.apply_inverse(&self.place.arms[k]))
@@ -261,13 +261,13 @@ impl TouchPoint {
 
     /// A force at another configuration of the point, along the axes of this one: its normal part remains along the normal, so that it has
     /// no moment about the centre of a ball.
-    pub(super) fn turned(&self, from: &Self, force: &Vector3) -> Vector3 {
+    pub(crate) fn turned(&self, from: &Self, force: &Vector3) -> Vector3 {
         let tangential = from.place.axes.tr_mul(&force.xy().push(0.0));
         (self.place.axes * tangential).xy().push(force.z)
     }
 
     /// Coefficient of restitution, if the law has one.
-    pub(super) fn restitution(&self) -> Option<f64> {
+    pub(crate) fn restitution(&self) -> Option<f64> {
         match self.law.impact {
             Impact::Restitution { coefficient, .. } => Some(coefficient),
             Impact::Dissipation(_) => None,
@@ -275,29 +275,29 @@ impl TouchPoint {
     }
 
     /// Velocity of slow impacts, which do not rebound [m/s].
-    pub(super) fn rest_velocity(&self) -> f64 {
+    pub(crate) fn rest_velocity(&self) -> f64 {
         self.law.impact.rest_velocity().unwrap_or(0.0)
     }
 
     /// Whether the touch lasted, or began at rest, before a step of `size` [s].
-    pub(super) fn lasts_from(&self, size: f64) -> bool {
+    pub(crate) fn lasts_from(&self, size: f64) -> bool {
         let rest = self.rest_velocity();
         self.is_unresolved
             && (self.phase == Phase::Lasting || self.approach <= rest && self.place.gap <= rest * size)
     }
 
     /// Gap at the end of the step beyond the penetration without force [m].
-    pub(super) fn distance_at(&self, state: &TouchState) -> f64 {
+    pub(crate) fn distance_at(&self, state: &TouchState) -> f64 {
         self.gap_at(state) + self.relief
     }
 
     /// Gap at the configuration of the point [m].
-    pub(super) fn gap(&self) -> f64 {
+    pub(crate) fn gap(&self) -> f64 {
         self.place.gap
     }
 
     /// Adds the wrenches of a force on the tip, in the axes of the point, by row.
-    pub(super) fn add_wrenches(
+    pub(crate) fn add_wrenches(
         &self,
         force: &Vector3,
         (at, layout): (&Kinematics, &Layout),
@@ -331,7 +331,7 @@ impl TouchPoint {
     }
 
     /// The same for an impact.
-    pub(super) fn friction_of(&self, normal: f64, velocity: f64) -> f64 {
+    pub(crate) fn friction_of(&self, normal: f64, velocity: f64) -> f64 {
         self.law.friction.map_or(0.0, |friction| friction.coefficient(velocity) * normal)
     }
 
@@ -439,12 +439,12 @@ impl TouchPoint {
     }
 
     /// Gap at the end of the step [m].
-    pub(super) fn gap_at(&self, state: &TouchState) -> f64 {
+    pub(crate) fn gap_at(&self, state: &TouchState) -> f64 {
         self.place.gap + state.displacement.z
     }
 
     /// Elastic energy of the touch and its bristle at the end of the step, with which the next one continues [J].
-    pub(super) fn energy(&self, state: &TouchState) -> f64 {
+    pub(crate) fn energy(&self, state: &TouchState) -> f64 {
         if !self.is_touching(state) {
             return 0.0;
         }
@@ -454,12 +454,12 @@ impl TouchPoint {
     }
 
     /// The touch at the end of the step, if both parts touch then.
-    pub(super) fn end(&self, state: &TouchState) -> Option<Touch> {
+    pub(crate) fn end(&self, state: &TouchState) -> Option<Touch> {
         self.is_touching(state).then(|| self.touch(state))
     }
 
     /// The touch at the end of the step, in which an impact gave the velocity and the impulse of a `state` at a point at its end.
-    pub(super) fn end_of_impact(&self, state: &TouchState, (point, impact): (&Self, &TouchState)) -> Touch {
+    pub(crate) fn end_of_impact(&self, state: &TouchState, (point, impact): (&Self, &TouchState)) -> Touch {
         let force = impact.force / self.size;
         let of = Self { place: point.place, ..*self }.touch(&TouchState { force, ..*impact });
         Touch {
@@ -505,7 +505,7 @@ impl TouchPoint {
 }
 
 /// Adds friction to a state: minus a pull of this stiffness, limited to a bound.
-pub(super) fn add_friction(pull: [f64; 2], stiffness: f64, bound: f64, state: &mut TouchState) {
+pub(crate) fn add_friction(pull: [f64; 2], stiffness: f64, bound: f64, state: &mut TouchState) {
     if bound <= 0.0 {
         state.slips = true;
         return;
