@@ -417,10 +417,14 @@ pub(crate) mod tests {
 
     /// Points on a line with lines between them, all in so many groups.
     fn grouped(points: usize, groups: usize) -> String {
-        let tags: String = (1..=groups).map(|tag| format!(" {tag}")).collect();
-        let numbers: String = (1..=points).map(|own| format!("{own}\n")).collect();
-        let positions: String = (1..=points).map(|own| format!("{own} 0 0\n")).collect();
-        let lines: String = (1..points).map(|own| format!("{own} {own} {}\n", own + 1)).collect();
+        let tags: Vec<String> = (1..=groups).map(|tag| format!(" {tag}")).collect();
+        let tags = tags.concat();
+        let numbers: Vec<String> = (1..=points).map(|own| format!("{own}\n")).collect();
+        let numbers = numbers.concat();
+        let positions: Vec<String> = (1..=points).map(|own| format!("{own} 0 0\n")).collect();
+        let positions = positions.concat();
+        let lines: Vec<String> = (1..points).map(|own| format!("{own} {own} {}\n", own + 1)).collect();
+        let lines = lines.concat();
         format!(
             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 1 0 0\n1 0 0 0 1 0 0 {groups}{tags} 0\n$EndEntities\n\
              $Nodes\n1 {points} 1 {points}\n1 1 0 {points}\n{numbers}{positions}$EndNodes\n\
