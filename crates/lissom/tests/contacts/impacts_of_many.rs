@@ -70,6 +70,29 @@ fn impacts_have_their_friction() {
     }
 }
 
+/// A ball rebounds from a head at the end of a beam: the relative velocity has the restitution, whose error is of first order in the step.
+#[test]
+fn a_ball_rebounds_from_the_end_of_a_beam() {
+    let beam = "[materials.steel]\nE = 2.1e11\nnu = 0.3\ndensity = 7800\n[sections.s]\nshape = \"rectangle\"\nwidth = 0.02\nheight = 0.01\n\
+                material = \"steel\"\n[beams.beam]\nfrom = [0, 0, 0.5]\nto = [1, 0, 0.5]\nelements = 6\nsection = \"s\"\n[joints.wall]\n\
+                kind = \"clamp\"\nbase = \"ground\"\ntip = \"beam.start\"\n[joints.head]\nkind = \"clamp\"\nbase = \"beam.end\"\ntip = \"head\"\n";
+    let bodies = ball("head", (0.05, 0.3), [1.0, 0.0, 0.45], "")
+        + &ball("ball", (0.05, 0.2), [1.0, 0.0, 0.57], "velocity = [0, 0, -1.2]")
+        + beam;
+    let contact = "base = \"head\"\ntip = \"ball\"\nrestitution = 0.7";
+    for (step, allowed) in [(1e-3, 0.1), (1e-4, 0.01)] {
+        let record = run(&scene(0.0, &bodies, contact, [step, 0.03]), &[]);
+        let relative: Vec<f64> = series(&record, "v_ball.v3")
+            .iter()
+            .zip(series(&record, "v_head.v3"))
+            .map(|(ball, head)| ball - head)
+            .collect();
+        let impact = relative.windows(2).find(|pair| pair[0] < -0.5 && pair[1] > 0.0).expect("they collide");
+        let found = impact[1] / -impact[0];
+        assert!((found / 0.7 - 1.0).abs() < allowed, "{step}: {found}");
+    }
+}
+
 /// A body that stands on light feet sinks to N/k and stays there, and one that is dropped on them rests there in the end.
 #[test]
 fn light_feet_carry_a_heavy_body() {
