@@ -191,14 +191,11 @@ impl StepEquations<'_> {
                 return Err(Failure::NotConverged { iterations: corrections, correction: unbalance });
             }
             corrections += 1;
-            let slope_of = |impacts: &Impacts, residual: &[f64]| -> f64 {
-                -impacts.right.iter().zip(residual).map(|(change, own)| change * own).sum::<f64>()
-            };
             contacts.impacts.product.clone_from(&contacts.impacts.right);
             self.solve_velocities(contacts)?;
             let (at, impacts) = (&self.work.motions[0].at, &mut contacts.impacts);
             let count = layout.coordinate_count();
-            let slope = slope_of(impacts, &impacts.product[..count]);
+            let slope = -dot(&impacts.right, &impacts.product[..count]);
             let Impacts { participants, points, states, changes, change, right, .. } = impacts;
             changes.clear();
             changes.extend(points.iter().map(|point| -point.change(at, |node| of_node(layout, node, right))));

@@ -150,17 +150,19 @@ impl NearPoints {
             let step =
                 StepOfPoint { size, radius, planned: self.planned, compliance, is_first: self.is_first };
             let frames = nodes.map(|node| start.nodes[node].frame);
-            let path = FreePath::of(nodes, (start, self.gravity), size);
             let reach = travel[base] + travel[tip];
             for (point, (meeting, law)) in own.iter().enumerate() {
                 let key = TouchKey { rule, parts, point: point as u32 };
                 while touches.next_if(|touch| touch.key.rank() < key.rank()).is_some() {}
                 let before = touches.peek().copied().filter(|touch| touch.key == key && touch.continues);
                 let Some(mut place) = Place::of(meeting, frames, reach) else { continue };
-                let length = path.length(meeting, &place);
-                if before.is_none() && is_round(meeting) && length > SHORT * radius && place.gap > 0.0 {
-                    let Encounter { time, .. } = path.first_touch(meeting, (place.gap, length));
-                    place = path.place_at(meeting, time).unwrap_or(place);
+                if before.is_none() && is_round(meeting) && place.gap > 0.0 {
+                    let path = FreePath::of(nodes, (start, self.gravity), size);
+                    let length = path.length(meeting, &place);
+                    if length > SHORT * radius {
+                        let Encounter { time, .. } = path.first_touch(meeting, (place.gap, length));
+                        place = path.place_at(meeting, time).unwrap_or(place);
+                    }
                 }
                 points.push(TouchPoint::at((key, meeting, law), nodes, (start, step), (place, before)));
             }
