@@ -31,11 +31,17 @@ pub(crate) struct Entry<'a> {
     at: &'a Kinematics,
     multipliers: &'a [f64],
     violations: &'a [f64],
+    of_touches: Energy,
 }
 
 impl<'a> From<&'a State> for Entry<'a> {
     fn from(state: &'a State) -> Self {
-        Self { at: &state.kinematics, multipliers: &state.multipliers, violations: &state.violations }
+        Self {
+            at: &state.kinematics,
+            multipliers: &state.multipliers,
+            violations: &state.violations,
+            of_touches: state.touch_energy(),
+        }
     }
 }
 
@@ -112,11 +118,11 @@ impl EnergyBalance {
     /// At the start of a simulation; of a motion, with the `interval` in which positions change [s].
     pub(crate) fn new(
         system: &System,
-        at: &Kinematics,
+        state: &State,
         representative: &Representative,
         interval: Option<f64>,
     ) -> Self {
-        let energy = system.energy(at);
+        let energy = system.energy_of(state);
         let place = round_off::POSITION * representative.length;
         // Models at rest move by round-off of positions, and then have energy although none was supplied.
         let speed = interval.map_or(0.0, |interval| round_off::INCREMENT * representative.length / interval);
@@ -175,7 +181,7 @@ impl EnergyBalance {
             // Weight that grows with the load parameter does work by the trapezoidal rule, as other loads do.
             let gravity = [start.at, end.at].map(|at| system.gravity_factor(at.time));
             let of_weight = (!is_motion).then_some(0.5 * (gravity[0] + gravity[1]));
-            after.weigh(system.energy(end.at), of_weight);
+            after.weigh([system.energy(end.at), end.of_touches].into_iter().sum(), of_weight);
         }
         after
     }

@@ -515,7 +515,6 @@ mod tests {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         };
         let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
         let (rates, curvatures, increments) = (list(), list(), [list(), list(), list()]);

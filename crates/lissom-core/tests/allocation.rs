@@ -3,13 +3,17 @@
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 
+use lissom_core::contact::compliance::Compliance;
+use lissom_core::contact::set::{ContactRule, ContactSet, Coulomb, Impact, TouchLaw, TouchingPart};
+use lissom_core::contact::solids::{Form, PlacedSolid, Solid};
 use lissom_core::elements::beam::SectionLaw;
 use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::joints;
+use lissom_core::kinematics::Freedoms;
 use lissom_core::newton::Limits;
 use lissom_core::registry::Parameters;
 use lissom_core::scaling::ScalingChoice;
-use lissom_core::schemes::{energy_decaying, generalized_alpha, radau_iia};
+use lissom_core::schemes::{Scheme, backward_euler, energy_decaying, generalized_alpha, radau_iia};
 use lissom_core::settings::Settings;
 use lissom_core::simulation::Simulation;
 use lissom_core::system::{Builder, Placement};
@@ -81,33 +85,69 @@ fn steps_with(hinges: &[&str]) {
         for hinge in hinges {
             builder.add_joint(hinge, revolute, &placement, &Parameters::new()).expect("valid");
         }
-        let (system, state) = builder.build(0.0).expect("valid");
-        let settings = Settings {
-            scheme,
-            step_size: 1e-2,
-            control: None,
-            scaling: ScalingChoice::default(),
-            limits: Limits::default(),
-            solver: lissom_solver::kind("sparse").expect("registered"),
-            threads: 1,
-            from_equilibrium: false,
-            follow_drives: true,
-            energy_check: true,
-        };
-        let mut simulation = Simulation::new(system, state, settings).expect("consistent");
+        let mut simulation = simulation(builder, scheme);
         simulation.step().expect("converges");
         // Another step size asks for a new tangent sooner or later; schemes with a memory allocate at the change itself.
         simulation.set_step_size(1e-3);
         // Entries that vanish at the start join within the first steps.
-        for _ in 0..5 {
-            simulation.step().expect("converges");
-        }
-        let before = COUNT.get();
-        for _ in 0..20 {
-            simulation.step().expect("converges");
-        }
-        let allocated = COUNT.get() - before;
+        let allocated = allocated_after(&mut simulation, 5);
         assert!(simulation.totals().factorizations > 1, "a new tangent must be among the steps");
         assert_eq!(allocated, 0, "{}", simulation.settings().scheme.name);
     }
+}
+
+/// Balls that rest on a plane and on each other with friction.
+#[test]
+fn a_step_of_a_pile_at_rest_allocates_nothing() {
+    let mut builder = Builder::new();
+    builder.set_gravity(Vector3::new(0.0, 0.0, -9.81));
+    let placed = |form| vec![PlacedSolid { frame: Motion::identity(), form }];
+    let mut parts = vec![TouchingPart::new(builder.ground(), placed(Form::HalfSpace))];
+    for (name, place) in [("left", [0.0, 0.0, 0.1]), ("right", [0.2, 0.0, 0.1]), ("top", [0.1, 0.0, 0.2732])]
+    {
+        let node = builder.add_node(name, Motion::translation(place.into()), Freedoms::Full);
+        builder.add_inertia(node, &Matrix6::from_diagonal(&[1.0, 1.0, 1.0, 4e-3, 4e-3, 4e-3].into()));
+        parts.push(TouchingPart::new(node, placed(Form::Solid(Solid::Sphere(0.1)))));
+    }
+    let law = TouchLaw {
+        compliance: Compliance { stiffness: 1e5, exponent: 1.0 },
+        impact: Impact::Dissipation(1.0),
+        friction: Some(Coulomb { sliding: 0.5, at_rest: 0.5, stribeck: 0.01 }),
+    };
+    let rule =
+        ContactRule { name: "pile".to_owned(), parts: (0..parts.len()).collect(), law, materials: None };
+    *builder.contacts_mut() = ContactSet { parts, rules: vec![rule] };
+    let mut simulation = simulation(builder, backward_euler::backward_euler());
+    let allocated = allocated_after(&mut simulation, 200);
+    assert!(simulation.state().touches.len() > 3, "{:?}", simulation.state().touches);
+    assert_eq!(allocated, 0);
+}
+
+fn simulation(builder: Builder, scheme: Scheme) -> Simulation {
+    let (system, state) = builder.build(0.0).expect("valid");
+    let settings = Settings {
+        scheme,
+        step_size: 1e-2,
+        control: None,
+        scaling: ScalingChoice::default(),
+        limits: Limits::default(),
+        solver: lissom_solver::kind("sparse").expect("registered"),
+        threads: 1,
+        from_equilibrium: false,
+        follow_drives: true,
+        energy_check: true,
+    };
+    Simulation::new(system, state, settings).expect("consistent")
+}
+
+/// Allocations of twenty steps after `others`.
+fn allocated_after(simulation: &mut Simulation, others: usize) -> usize {
+    for _ in 0..others {
+        simulation.step().expect("converges");
+    }
+    let before = COUNT.get();
+    for _ in 0..20 {
+        simulation.step().expect("converges");
+    }
+    COUNT.get() - before
 }

@@ -54,7 +54,6 @@ fn kinematics(numbers: &mut Numbers, count: usize, turn: f64) -> Kinematics {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
-        touches: Vec::new(),
     }
 }
 

@@ -291,9 +291,9 @@ fn free_flexible_pendulum_keeps_its_energy_as_the_scheme_promises() {
     ] {
         let name = scheme.name.clone();
         let mut simulation = simulation(rope(&Motion::identity(), 4), scheme, 1e-3);
-        let start = simulation.system().energy(&simulation.state().kinematics).total();
+        let start = simulation.system().energy_of(simulation.state()).total();
         run(&mut simulation, 500);
-        let end = simulation.system().energy(&simulation.state().kinematics);
+        let end = simulation.system().energy_of(simulation.state());
         let change = (end.total() - start) / end.kinetic;
         println!("{name}: relative change of energy {change:e}, {:?}", simulation.totals());
         assert!(change < gain && change > -loss, "{name}: relative change of energy {change:e}");
@@ -324,7 +324,7 @@ fn turned_models_give_turned_results() {
 #[test]
 fn constraints_do_not_drift_and_the_top_keeps_its_energy() {
     let mut simulation = simulation(top(), radau_iia::two_stages(), 1e-4);
-    let energy = |simulation: &Simulation| simulation.system().energy(&simulation.state().kinematics);
+    let energy = |simulation: &Simulation| simulation.system().energy_of(simulation.state());
     let start = energy(&simulation);
     run(&mut simulation, 100_000);
     let mut absolute = vec![0.0; 3];

@@ -61,6 +61,24 @@ fn offences(allowed: &[&str], words: &[&str]) -> Vec<String> {
     found
 }
 
+/// Mechanics holds no step: no field of a struct is one, by what its docstring says.
+#[test]
+fn no_struct_of_mechanics_holds_a_step() {
+    // What the energy-decaying scheme shows to elements, and the exact time since the start of a step.
+    let allowed = ["kinematics/step_stages.rs", "kinematics/motion.rs"];
+    let of_mechanics =
+        core_sources().into_iter().filter(|(crate_name, ..)| *crate_name == "lissom-mechanics");
+    for (_, name, file) in of_mechanics.filter(|(_, name, _)| !allowed.contains(&name.as_str())) {
+        let text = fs::read_to_string(&file).expect("readable");
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        for (number, pair) in lines.windows(2).enumerate() {
+            let is_field = pair[1].ends_with("f64,") && !pair[1].contains('(');
+            let says = pair[0].strip_prefix("///").is_some_and(|words| words.contains("[s]"));
+            assert!(!is_field || !says || !pair[0].contains("step"), "{name}:{}: {}", number + 2, pair[1]);
+        }
+    }
+}
+
 /// The claim of the method as code structure: only the scaling, and what takes steps, know the step size.
 #[test]
 fn only_scaling_and_what_takes_steps_know_the_step_size() {

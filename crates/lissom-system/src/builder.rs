@@ -537,7 +537,6 @@ impl Builder {
                 coordinates,
                 held,
                 multipliers: if sees_multipliers { vec![0.0; layout.multiplier_count] } else { Vec::new() },
-                touches: Vec::new(),
             },
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],
@@ -545,6 +544,7 @@ impl Builder {
             time_remainder: 0.0,
             position_remainders: vec![Vector3::zeros(); self.model.nodes.len()],
             accumulated: Vec::new(),
+            touches: Vec::new(),
         }
     }
 

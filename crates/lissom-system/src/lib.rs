@@ -16,6 +16,7 @@ pub mod settings;
 pub mod solver_features;
 mod state;
 mod step_stages;
+mod touch;
 pub mod tuning;
 
 use std::collections::BTreeMap;
@@ -33,6 +34,7 @@ pub use parameter_difference::ParameterDifference;
 pub use reading::{Quantity, Reading};
 pub use state::State;
 pub use step_stages::StepPoint;
+pub use touch::{Touch, TouchKey};
 
 use lissom_motion::Vector3;
 use lissom_solver::Structure;
@@ -267,12 +269,16 @@ impl System {
         self.batches.iter().flat_map(move |batch| batch.elements_with(capability))
     }
 
-    /// Kinetic, elastic and potential energy [J].
+    /// Kinetic, elastic and potential energy of all elements [J]; of touches without elements see [`energy_of`](Self::energy_of).
     pub fn energy(&self, at: &Kinematics) -> Energy {
         let of =
             |batch: &Arc<dyn AnyBatch>| batch.elements().map(|element| element.energy(at)).sum::<Energy>();
-        let touches = at.touches.iter().map(|touch| Energy { strain: touch.energy, ..Energy::default() });
-        self.batches.iter().map(of).chain(touches).sum()
+        self.batches.iter().map(of).sum()
+    }
+
+    /// Kinetic, elastic and potential energy of a state with its touches [J].
+    pub fn energy_of(&self, state: &State) -> Energy {
+        [self.energy(&state.kinematics), state.touch_energy()].into_iter().sum()
     }
 
     /// Elongation, its rate and the opposing force [SI] of a spring or similar element.

@@ -2,7 +2,10 @@
 
 use lissom_motion::Vector3;
 
+use lissom_mechanics::elements::Energy;
 use lissom_mechanics::kinematics::Kinematics;
+
+use crate::touch::Touch;
 
 /// The state between two steps.
 #[derive(Debug, PartialEq)]
@@ -22,6 +25,16 @@ pub struct State {
     pub position_remainders: Vec<Vector3>,
     /// Values that a simulation accumulates along the motion, see `analysis::accumulated`.
     pub accumulated: Vec<f64>,
+    /// Touches of the parts of a [`ContactSet`](lissom_mechanics::contact::set::ContactSet) at the end of the last step, by ascending
+    /// keys.
+    pub touches: Vec<Touch>,
+}
+
+impl State {
+    /// Elastic energy of the [`touches`](Self::touches) [J].
+    pub fn touch_energy(&self) -> Energy {
+        Energy { strain: self.touches.iter().map(|touch| touch.energy).sum(), ..Energy::default() }
+    }
 }
 
 impl Clone for State {
@@ -34,6 +47,7 @@ impl Clone for State {
             time_remainder: self.time_remainder,
             position_remainders: self.position_remainders.clone(),
             accumulated: self.accumulated.clone(),
+            touches: self.touches.clone(),
         }
     }
 
@@ -46,5 +60,6 @@ impl Clone for State {
         self.time_remainder = from.time_remainder;
         self.position_remainders.clone_from(&from.position_remainders);
         self.accumulated.clone_from(&from.accumulated);
+        self.touches.clone_from(&from.touches);
     }
 }

@@ -94,7 +94,7 @@ impl SolvedStages<'_> {
         };
         let (per_time, per_square) = (1.0 / duration, 1.0 / (duration * duration));
         out.kinematics.held.clone_from(&start.held);
-        out.kinematics.touches.clone_from(&end.touches);
+        out.touches.clone_from(&to.touches);
         (out.kinematics.time, out.kinematics.elapsed) = (start.time + ahead, 0.0);
         let nodes = out.kinematics.nodes.iter_mut().zip(&start.nodes).zip(&layout.node_rows);
         for ((node, from), rows) in nodes {
@@ -141,7 +141,7 @@ pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;
     out.kinematics.held.clone_from(&start.held);
-    out.kinematics.touches.clone_from(&end.touches);
+    out.touches.clone_from(&to.touches);
     let between = |a: f64, b: f64| a + x * (b - a);
     out.kinematics.time = start.time + x * duration;
     out.kinematics.elapsed = 0.0;

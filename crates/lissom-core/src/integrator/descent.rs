@@ -40,7 +40,7 @@ impl Descent for StepEquations<'_> {
 
     fn settle(&mut self) -> bool {
         let Some(mut contacts) = self.work.contacts.take() else { return true };
-        let (motion, start) = (&self.work.motions[0], &self.start.kinematics);
+        let (motion, start) = (&self.work.motions[0], self.start);
         let is_settled = contacts.is_settled((start, motion), self.scaled.step_size());
         self.work.contacts = Some(contacts);
         is_settled
@@ -53,7 +53,7 @@ impl StepEquations<'_> {
         let Some(contacts) = &mut self.work.contacts else { return false };
         contacts.tolerance = SHARE_OF_TOLERANCE * settings.limits.tolerance;
         let sizes = [self.scaled.step_size(), settings.step_size];
-        contacts.begin(self.system, (&self.start.kinematics, false), sizes);
+        contacts.begin(self.system, (self.start, false), sizes);
         true
     }
 

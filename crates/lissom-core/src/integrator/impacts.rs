@@ -278,7 +278,7 @@ impl StepEquations<'_> {
             right[row as usize] -= before.rate;
         }
         pattern.multiply(&linearization.mass, right, product);
-        let stored: f64 = start.touches.iter().map(|touch| touch.energy).sum();
+        let stored = self.start.touch_energy().strain;
         let dissipated = |(point, state): (&TouchPoint, &TouchState)| {
             -state.force.dot(&state.displacement) - point.energy(state)
         };

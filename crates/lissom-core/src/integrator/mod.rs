@@ -108,16 +108,16 @@ impl Integrator {
     }
 
     /// Notes the touches at the start of a motion with steps of `size` [s].
-    pub(crate) fn note_touches(&mut self, system: &System, at: &mut Kinematics, size: f64) {
-        if let Some(contacts) = self.work.contacts.as_mut().filter(|_| at.touches.is_empty()) {
-            contacts.begin(system, (at, true), [size; 2]);
-            contacts.write_first_touches(&mut at.touches);
+    pub(crate) fn note_touches(&mut self, system: &System, state: &mut State, size: f64) {
+        if let Some(contacts) = self.work.contacts.as_mut().filter(|_| state.touches.is_empty()) {
+            contacts.begin(system, (state, true), [size; 2]);
+            contacts.write_first_touches(&mut state.touches);
         }
     }
 
-    /// Time to the first touch of parts that move far in a step of `size` [s] from `at`, if it is within the step [s]: the step ends there.
-    pub(crate) fn first_touch(&mut self, system: &System, at: &Kinematics, size: f64) -> Option<f64> {
-        self.work.contacts.as_mut()?.near.first_touch(system, at, size)
+    /// Time to the first touch of parts that move far in a step of `size` [s] `from` a state, if it is within the step [s]: the step ends there.
+    pub(crate) fn first_touch(&mut self, system: &System, from: &State, size: f64) -> Option<f64> {
+        self.work.contacts.as_mut()?.near.first_touch(system, from, size)
     }
 
     /// Solves a step of `size` [s] and stores the result in `attempt`.
@@ -225,7 +225,7 @@ impl Integrator {
         end.multipliers.copy_from_slice(multipliers);
         end.kinematics.show_multipliers(&end.multipliers);
         if let Some(contacts) = &work.contacts {
-            contacts.write_touches(&mut end.kinematics.touches);
+            contacts.write_touches(&mut end.touches);
             if let Some(change) = contacts.impacts.change() {
                 add_impacts(system.layout(), (change, self.scaled.step_size()), end);
             }

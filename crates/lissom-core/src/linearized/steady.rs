@@ -225,6 +225,7 @@ impl<'a> LinearModel<'a> {
             multipliers: self.multipliers().to_vec(),
             time_remainder: 0.0,
             accumulated: Vec::new(),
+            touches: Vec::new(),
             kinematics,
         };
         LinearModel::of(self.system, &state, self.solver)

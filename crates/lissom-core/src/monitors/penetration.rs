@@ -3,7 +3,7 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::errors::{Warning, warn};
 use crate::kinematics::{GROUND, Kinematics, NodeId};
-use crate::system::System;
+use crate::system::{State, System};
 
 /// Largest plausible penetration at the start, as a fraction of half the size of the two solids or of the range of a stop.
 const OVERLAP: f64 = 0.1;
@@ -21,17 +21,20 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
 
 impl Monitor for Penetration {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
-        if let Some(warning) = too_deep(step.problem.system, &step.end.kinematics) {
+        if let Some(warning) = too_deep(step.problem.system, step.end) {
             warn(warnings, warning);
         }
     }
 }
 
 /// The first contact that is deeper than half of the size of its solids.
-fn too_deep(system: &System, at: &Kinematics) -> Option<Warning> {
+fn too_deep(system: &System, state: &State) -> Option<Warning> {
+    let at = &state.kinematics;
     let parts = &system.contacts().parts;
-    let touches =
-        at.touches.iter().map(|touch| (parts[touch.key.parts[1] as usize].node, [touch.gap, touch.deepest]));
+    let touches = state
+        .touches
+        .iter()
+        .map(|touch| (parts[touch.key.parts[1] as usize].node, [touch.gap, touch.deepest]));
     let (part, [depth, limit]) = beyond(1.0, system, at).or_else(|| deepest_of(1.0, system, touches))?;
     Some(Warning::ContactTooDeep { time: at.time, part, depth, limit })
 }

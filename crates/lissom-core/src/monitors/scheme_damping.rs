@@ -25,12 +25,16 @@ struct SchemeDamping {
     lost: f64,
     /// By inertia [J].
     by_inertia: Vec<f64>,
+    /// Labels of the components of the model that touch something, in ascending order.
+    #[serde(skip)]
+    touching: Vec<usize>,
 }
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let system = beginning.problem.system;
     let is_examined = beginning.is_planned_motion() && !system.contacts().is_empty();
-    let own = SchemeDamping { lost: 0.0, by_inertia: vec![0.0; system.inertias().len()] };
+    let own =
+        SchemeDamping { lost: 0.0, by_inertia: vec![0.0; system.inertias().len()], touching: Vec::new() };
     is_examined.then(|| Box::new(own) as Box<dyn Monitor>)
 }
 
@@ -48,28 +52,28 @@ fn loss(inertia: &Inertia, [from, to]: [&Kinematics; 2]) -> f64 {
     0.5 * change.dot(&(inertia.mass() * change))
 }
 
-/// Labels of the components of the model that touch something, in ascending order.
-fn touching(step: &Accepted<'_>) -> Vec<usize> {
+/// Finds the components that touch something.
+fn find_touching(step: &Accepted<'_>, labels: &mut Vec<usize>) {
+    labels.clear();
     let (system, ends) = (step.problem.system, [step.start, step.end]);
-    let Some(contacts) = &step.integrator.work.contacts else { return Vec::new() };
-    let touches = ends.iter().flat_map(|end| &end.kinematics.touches);
+    let Some(contacts) = &step.integrator.work.contacts else { return };
+    let touches = ends.iter().flat_map(|end| &end.touches);
     let parts = touches.flat_map(|touch| touch.key.parts);
     let label = |part: u32| contacts.label_of(system.layout(), system.contacts().parts[part as usize].node);
-    let mut labels: Vec<usize> = parts.filter_map(label).collect();
+    labels.extend(parts.filter_map(label));
     labels.sort_unstable();
     labels.dedup();
-    labels
 }
 
 impl Monitor for SchemeDamping {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let system = step.problem.system;
         let ends = [&step.start.kinematics, &step.end.kinematics];
-        let touching = touching(step);
+        find_touching(step, &mut self.touching);
         let Some(contacts) = &step.integrator.work.contacts else { return };
         for (own, inertia) in self.by_inertia.iter_mut().zip(system.inertias()) {
             let label = contacts.label_of(system.layout(), inertia.node());
-            if label.is_some_and(|label| touching.binary_search(&label).is_err()) {
+            if label.is_some_and(|label| self.touching.binary_search(&label).is_err()) {
                 let lost = loss(inertia, ends);
                 *own += lost;
                 self.lost += lost;

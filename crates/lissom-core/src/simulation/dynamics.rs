@@ -86,11 +86,11 @@ impl Simulation {
         let beginning = Beginning { problem, state: &state, representative: &representative, released };
         let monitors = Monitors::new(&beginning);
         let mut integrator = Integrator::new(problem, &state, (representative, redundancy));
-        integrator.note_touches(&system, &mut state.kinematics, settings.step_size);
+        integrator.note_touches(&system, &mut state, settings.step_size);
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
-        let energy_balance = EnergyBalance::new(&system, &state.kinematics, &representative, interval);
+        let energy_balance = EnergyBalance::new(&system, &state, &representative, interval);
         let events = event_detector(&system, &state, &settings);
         events.freeze_switches(&system, &mut state.kinematics);
         Ok(Self {

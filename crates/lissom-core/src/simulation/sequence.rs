@@ -109,7 +109,7 @@ impl Simulation {
         let mut rest = planned.unwrap_or(limit - self.now());
         loop {
             let mut stop = self.next_stop(rest, planned.is_none().then_some(limit));
-            let touch = self.integrator.first_touch(&self.system, &self.state.kinematics, stop.distance);
+            let touch = self.integrator.first_touch(&self.system, &self.state, stop.distance);
             if let Some(distance) = touch {
                 stop = Stop { distance, clock: None, crossing: None, is_last: false };
             }

@@ -14,14 +14,14 @@ use crate::diagnostics::diagnostics;
 use crate::energy_balance::EnergyBalance;
 use crate::errors::Warning;
 use crate::integrator::IntegratorHistory;
-use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion, Touch};
+use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
 use crate::newton::JacobianState;
 use crate::scaling::Scaled;
 use crate::settings::{Settings, Totals};
 use crate::simulation::Simulation;
 use crate::simulation::signal_history::SignalHistory;
 use crate::simulation::snapshot_parts::Learned;
-use crate::system::State;
+use crate::system::{State, Touch};
 
 /// Incremented whenever the contents of a snapshot change.
 const VERSION: u32 = 23;
@@ -122,8 +122,9 @@ impl From<&State> for StateNumbers {
             time_remainder,
             position_remainders,
             accumulated,
+            touches,
         } = state;
-        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown, touches } = kinematics;
+        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown } = kinematics;
         let of_node = |node: &NodeMotion| {
             let mut numbers = [0.0; 19];
             numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
@@ -173,7 +174,6 @@ impl From<&StateNumbers> for State {
                     .collect(),
                 held: numbers.held.clone(),
                 multipliers: if numbers.shows_multipliers { numbers.multipliers.clone() } else { Vec::new() },
-                touches: numbers.touches.clone(),
             },
             multipliers: numbers.multipliers.clone(),
             violations: numbers.violations.clone(),
@@ -181,6 +181,7 @@ impl From<&StateNumbers> for State {
             time_remainder: numbers.time_remainder,
             position_remainders: numbers.position_remainders.iter().map(|&place| place.into()).collect(),
             accumulated: numbers.accumulated.clone(),
+            touches: numbers.touches.clone(),
         }
     }
 }

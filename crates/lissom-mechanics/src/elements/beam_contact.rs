@@ -124,7 +124,6 @@ impl BeamContact {
                 coordinates: vec![CoordinateMotion::default(); STATES],
                 held: vec![0.0],
                 multipliers: Vec::new(),
-                touches: Vec::new(),
             },
             tangents: Tangents::new(BRISTLES + STATES),
         });

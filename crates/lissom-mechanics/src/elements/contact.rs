@@ -789,7 +789,6 @@ mod tests {
             coordinates: Vec::new(),
             held: vec![-1.0],
             multipliers: Vec::new(),
-            touches: Vec::new(),
         };
         let evaluate = |at: &Kinematics| {
             let (mut forces, mut tangents) = ([0.0; BRISTLES], Tangents::new(BRISTLES));

@@ -343,7 +343,6 @@ mod tests {
             coordinates: vec![motion(1.3, 0.5), motion(0.4, -0.2)],
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         };
         let (sine, cosine) = 0.4_f64.sin_cos();
         let close =

@@ -11,7 +11,6 @@ mod quantity;
 pub mod step_stages;
 mod subject;
 pub mod switch;
-mod touch;
 pub mod work;
 
 pub use carried_frame::CarriedFrame;
@@ -24,4 +23,3 @@ pub use quantity::Quantity;
 pub use step_stages::StepStages;
 pub use subject::Subject;
 pub use switch::Switch;
-pub use touch::{Touch, TouchKey};

@@ -3,7 +3,7 @@
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, axial, skew};
 
 use super::ids::indexed_by;
-use super::{CoordinateId, NodeId, Touch};
+use super::{CoordinateId, NodeId};
 
 /// The ground: node 0 of every system, without degrees of freedom.
 pub const GROUND: NodeId = NodeId::new(0);
@@ -166,8 +166,6 @@ pub struct Kinematics {
     pub held: Vec<f64>,
     /// Multipliers for elements whose forces depend on them [N, N m]; empty if there are no such elements.
     pub multipliers: Vec<f64>,
-    /// Touches of the parts of a [`ContactSet`](crate::contact::set::ContactSet) at the end of the last step, by ascending keys.
-    pub touches: Vec<Touch>,
 }
 
 impl Kinematics {
@@ -192,7 +190,6 @@ impl Clone for Kinematics {
             coordinates: self.coordinates.clone(),
             held: self.held.clone(),
             multipliers: self.multipliers.clone(),
-            touches: self.touches.clone(),
         }
     }
 
@@ -203,7 +200,6 @@ impl Clone for Kinematics {
         self.coordinates.clone_from(&from.coordinates);
         self.held.clone_from(&from.held);
         self.multipliers.clone_from(&from.multipliers);
-        self.touches.clone_from(&from.touches);
     }
 }
 

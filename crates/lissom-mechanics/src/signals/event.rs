@@ -207,15 +207,7 @@ mod tests {
         };
         let (held, nodes) = (graph.held_at_start(), Vec::new());
         let (coordinates, multipliers) = (Vec::new(), Vec::new());
-        let at = Kinematics {
-            time: 0.0,
-            elapsed: 0.0,
-            nodes,
-            coordinates,
-            held,
-            multipliers,
-            touches: Vec::new(),
-        };
+        let at = Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates, held, multipliers };
         let counts = || counted.iter().map(|own| own.1.load(Ordering::Relaxed)).collect::<Vec<_>>();
         let mut found = Vec::new();
         graph.event_values(&at, |value| found.push(value));

@@ -287,7 +287,6 @@ mod tests {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         }
     }
 

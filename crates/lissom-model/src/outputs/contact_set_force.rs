@@ -25,7 +25,7 @@ impl OutputQuantity for ContactSetForce {
             (0.0, Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
         let (mut gap, mut largest, mut slip) = (f64::INFINITY, 0.0, 0.0);
         let (mut touching, mut sliding) = (0.0, 0.0);
-        let touches = &at.motion().touches;
+        let touches = &at.state.touches;
         for touch in touches.iter().filter(|touch| touch.key.rule as usize == self.rule) {
             gap = gap.min(touch.gap);
             touching += 1.0;

@@ -21,7 +21,7 @@ struct Energy;
 
 impl OutputQuantity for Energy {
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
-        let energy = at.system.energy(at.motion());
+        let energy = at.system.energy_of(at.state);
         out.extend([energy.kinetic, energy.strain, energy.potential, energy.total()]);
     }
 

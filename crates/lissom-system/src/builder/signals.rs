@@ -96,7 +96,6 @@ impl Builder {
             coordinates: self.model.coordinates.iter().map(coordinate).collect(),
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         }
     }
 

@@ -206,6 +206,7 @@ fn derivatives_of(channel: &Channel, model: &LinearModel<'_>) -> Option<Vec<Outp
         time_remainder: 0.0,
         position_remainders: Vec::new(),
         accumulated: Vec::new(),
+        touches: Vec::new(),
     };
     let found = channel.derivatives_at(model.system(), &state, model.length())?;
     Some(found.into_iter().map(|output| model.along_departures(output)).collect())

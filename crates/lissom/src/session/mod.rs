@@ -652,11 +652,11 @@ impl Session {
 
     /// Updates violations and energy at the recorded end of a step.
     fn take_stock(&mut self) {
-        let at = &self.simulation.state().kinematics;
+        let state = self.simulation.state();
         let tally = &mut self.tally;
-        self.simulation.system().violations(at, &mut tally.violations);
+        self.simulation.system().violations(&state.kinematics, &mut tally.violations);
         tally.violation = tally.violations.iter().fold(tally.violation, |most, value| most.max(value.abs()));
-        let now = self.simulation.system().energy(at);
+        let now = self.simulation.system().energy_of(state);
         if tally.records == 0 {
             tally.energy.start = now;
         }

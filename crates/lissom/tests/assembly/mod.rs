@@ -433,7 +433,7 @@ at_tip = [1, 1, 0]
 axis = [0, 0, 1]
 "#;
     let found = lowered(&format!("{text}{END}"));
-    let energy = found.system.energy(&found.state.kinematics);
+    let energy = found.system.energy_of(&found.state);
     assert!(energy.strain < 1e-18, "{energy:?}");
     let assembly = found.assembly.unwrap();
     assert!(moved(&assembly, "one").1 > 0.1 && moved(&assembly, "two").0 > 0.1, "{assembly:?}");

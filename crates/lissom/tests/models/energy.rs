@@ -26,7 +26,7 @@ fn start_of(model: &str, overrides: &[(&str, &str)]) -> (Simulation, usize) {
 }
 
 fn total(simulation: &Simulation) -> f64 {
-    simulation.system().energy(&simulation.state().kinematics).total()
+    simulation.system().energy_of(simulation.state()).total()
 }
 
 /// Energy that is exchanged: the scale that round-off is measured with.
@@ -163,8 +163,7 @@ fn each_spring_and_beam_alone_preserves_energy_over_long_steps() {
             );
             let (mut simulation, steps) = start_of(&text, &[]);
             let first = total(&simulation);
-            let stored =
-                |simulation: &Simulation| simulation.system().energy(&simulation.state().kinematics).strain;
+            let stored = |simulation: &Simulation| simulation.system().energy_of(simulation.state()).strain;
             let mut most = [0.0_f64; 2];
             for _ in 0..steps {
                 simulation.step().unwrap_or_else(|error| panic!("{error}"));

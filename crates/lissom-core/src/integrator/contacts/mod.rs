@@ -25,11 +25,10 @@ use self::coupled_pattern::CoupledPattern;
 use self::impact::Impacts;
 use self::near_points::NearPoints;
 pub(crate) use self::touch_point::{TouchPoint, TouchState};
-use crate::contact::set::Touch;
 use crate::kinematics::{Kinematics, Layout, NodeId};
 use crate::saddle_point::TangentValues;
 use crate::scaling::StageMotion;
-use crate::system::System;
+use crate::system::{State, System, Touch};
 
 /// Corrections in which bounds of friction follow the iterates. From then on they are fixed until the iterations converge.
 pub(crate) const FOLLOWING: usize = 15;
@@ -110,7 +109,7 @@ impl StepContacts {
     pub(crate) fn begin(
         &mut self,
         system: &System,
-        (start, is_first): (&Kinematics, bool),
+        (start, is_first): (&State, bool),
         [size, planned]: [f64; 2],
     ) {
         (self.corrections, self.rounds) = (0, 0);
@@ -140,8 +139,8 @@ impl StepContacts {
     }
 
     /// Updates what was fixed while the iterations converged. Whether nothing has changed.
-    pub(crate) fn is_settled(&mut self, (start, motion): (&Kinematics, &StageMotion), size: f64) -> bool {
-        !self.near.has_left(start, motion, size) && !self.has_new_bounds()
+    pub(crate) fn is_settled(&mut self, (from, motion): (&State, &StageMotion), size: f64) -> bool {
+        !self.near.has_left(from, motion, size) && !self.has_new_bounds()
     }
 
     /// Fixes the bounds of friction anew, if they were fixed. Whether they have changed.

@@ -7,11 +7,11 @@ use lissom_motion::{Vector3, Vector6};
 
 use super::free_path::{Encounter, FreePath};
 use super::touch_point::{Phase, Place, StepOfPoint, TouchPoint};
-use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting, TouchKey};
+use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting};
 use crate::contact::solids::Meeting;
 use crate::kinematics::{GROUND, Kinematics, split};
 use crate::scaling::StageMotion;
-use crate::system::System;
+use crate::system::{State, System, Touch, TouchKey};
 
 /// Allowed travel over the expected one: that at the velocity and acceleration of the start, or the one that was too long.
 const TRAVEL_SHARE: f64 = 1.3;
@@ -85,15 +85,15 @@ impl NearPoints {
         }
     }
 
-    /// Finds the points of a step of `size` [s], which is part of a `planned` one [s], from the `start`, which may be that of the motion.
+    /// Finds the points of a step of `size` [s], which is part of a `planned` one [s], `from` its start, which may be that of the motion.
     pub(super) fn begin(
         &mut self,
         system: &System,
-        (start, is_first): (&Kinematics, bool),
+        (from, is_first): (&State, bool),
         [size, planned]: [f64; 2],
     ) {
         (self.is_first, self.planned, self.gravity) = (is_first, planned.max(size), *system.gravity());
-        let gravity = self.gravity.norm();
+        let (start, gravity) = (&from.kinematics, self.gravity.norm());
         self.measure_levers(start);
         for (index, part) in self.set.parts.iter().enumerate().filter(|(_, part)| part.node != GROUND) {
             let node = &start.nodes[part.node];
@@ -103,7 +103,7 @@ impl NearPoints {
             let acceleration = gravity + farthest(&node.acceleration);
             self.travel[index] = TRAVEL_SHARE * size * (farthest(&node.twist) + size * acceleration);
         }
-        self.find(start, size);
+        self.find((start, &from.touches), size);
     }
 
     /// Distances of the farthest points of parts without bounds that rotate.
@@ -122,7 +122,7 @@ impl NearPoints {
         }
     }
 
-    fn find(&mut self, start: &Kinematics, size: f64) {
+    fn find(&mut self, (start, touches): (&Kinematics, &[Touch]), size: f64) {
         let Self { set, pairs, meetings, known, last, next, points, travel, compliances, .. } = self;
         points.clear();
         next.clear();
@@ -140,7 +140,7 @@ impl NearPoints {
             next.push((pair, index));
         }
         std::mem::swap(last, next);
-        let mut touches = start.touches.iter().peekable();
+        let mut touches = touches.iter().peekable();
         for &(NearPair { rule, parts }, index) in last.iter() {
             let own = &meetings[index];
             let [base, tip] = parts.map(|part| part as usize);
@@ -170,7 +170,8 @@ impl NearPoints {
     }
 
     /// Time to the first touch of a ball that moves far in a step of `size` [s] from the `start`, if it is within the step [s].
-    pub(crate) fn first_touch(&mut self, system: &System, start: &Kinematics, size: f64) -> Option<f64> {
+    pub(crate) fn first_touch(&mut self, system: &System, from: &State, size: f64) -> Option<f64> {
+        let start = &from.kinematics;
         let fall = size * system.gravity().norm();
         let fastest = self.set.parts.iter().filter(|part| part.node != GROUND).map(|part| {
             let (velocity, spin) = split(&start.nodes[part.node].twist);
@@ -179,7 +180,7 @@ impl NearPoints {
         if 2.0 * size * fastest.fold(0.0, f64::max) < LONG * self.smallest {
             return None;
         }
-        self.begin(system, (start, false), [size; 2]);
+        self.begin(system, (from, false), [size; 2]);
         let mut first = f64::INFINITY;
         for point in self.points.iter().filter(|point| point.phase == Phase::Impact) {
             let parts = point.key.parts.map(|part| part as usize);
@@ -215,7 +216,7 @@ impl NearPoints {
     }
 
     /// Whether a part has travelled farther than allowed: it is then allowed more, and the points are found again.
-    pub(super) fn has_left(&mut self, start: &Kinematics, motion: &StageMotion, size: f64) -> bool {
+    pub(super) fn has_left(&mut self, from: &State, motion: &StageMotion, size: f64) -> bool {
         let mut has_left = false;
         for (index, part) in self.set.parts.iter().enumerate() {
             let turn = size * motion.at.nodes[part.node].twist.fixed_rows::<3>(3).norm();
@@ -227,7 +228,7 @@ impl NearPoints {
         }
         if has_left {
             let before = std::mem::take(&mut self.points);
-            self.find(start, size);
+            self.find((&from.kinematics, &from.touches), size);
             for point in &mut self.points {
                 if let Ok(index) = before.binary_search_by_key(&point.key.rank(), |own| own.key.rank()) {
                     *point = before[index];

@@ -30,7 +30,8 @@ use nalgebra::Vector2;
 use crate::contact::gap::Matrix3x6;
 use crate::contact::set::{Impact, TouchLaw, placed};
 use crate::contact::solids::Meeting;
-use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, Touch, TouchKey, split};
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, split};
+use crate::system::{Touch, TouchKey};
 
 /// σ: a bristle moves a free part by a tenth of the step's displacement at most.
 const BRISTLE_SHARE: f64 = 0.1;
@@ -568,7 +569,6 @@ mod tests {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         };
         let meetings = set.meetings_of(0, [0, 1]).expect("solids").expect("they touch");
         let (meeting, law) = &meetings[0];

@@ -15,7 +15,6 @@ use super::compliance::Compliance;
 use super::solids::{Meeting, PlacedSolid, meetings};
 use super::surfaces::MeshError;
 use crate::kinematics::{Kinematics, NodeId};
-pub use crate::kinematics::{Touch, TouchKey};
 
 /// A part of the set.
 #[derive(Clone, Debug, PartialEq)]

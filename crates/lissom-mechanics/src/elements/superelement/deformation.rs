@@ -105,7 +105,6 @@ mod tests {
                 .to_vec(),
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         };
         let mut wanted = vec![0.0; 20];
         (wanted[14], wanted[18], wanted[19]) = (0.25, 0.6, 0.2);

@@ -136,7 +136,6 @@ mod tests {
                 coordinates: Vec::new(),
                 held: Vec::new(),
                 multipliers: Vec::new(),
-                touches: Vec::new(),
             };
             at.nodes[0].acceleration[0] = of_base;
             at.nodes[1].acceleration[0] = of_base + own;

@@ -155,7 +155,6 @@ mod tests {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
-            touches: Vec::new(),
         };
         let straight = moving([Vector3::new(-0.6, 0.0, 0.8), Vector3::zeros()]);
         let turning = moving([Vector3::zeros(), Vector3::new(-0.1, 0.0, 0.0)]);
@@ -229,7 +228,6 @@ mod tests {
                     coordinates: vec![CoordinateMotion { value, rate: 0.3, acceleration: 0.0 }],
                     held: Vec::new(),
                     multipliers: Vec::new(),
-                    touches: Vec::new(),
                 }
             };
             let (start, end) = (state(0.0, 0.1), state(1.0, 0.1 + size));

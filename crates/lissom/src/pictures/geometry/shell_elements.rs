@@ -127,6 +127,5 @@ pub fn at_rest(poses: &[Pose]) -> Kinematics {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
-        touches: Vec::new(),
     }
 }
