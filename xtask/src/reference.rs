@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom::core::contact::solids::{FormKind, parts_between};
+use lissom::core::contact::forms::{FormKind, parts_between};
 use lissom::core::diagnostics::{Entry, Severity};
 use lissom::{FileError, catalogue};
 use lissom_model::lower::registry::registry;

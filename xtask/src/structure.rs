@@ -397,21 +397,30 @@ mod tests {
     /// Named numeric constants of the crates of the core outside tests.
     const MAX_CONSTANTS: usize = 473;
 
-    /// Lines of the sources of each crate: a commit that raises one of them gives the reason.
-    const MAX_LINES: [(&str, usize); 12] = [
-        ("lissom-motion", 3040),
-        ("lissom-solver", 7160),
-        ("lissom-mechanics", 38_730),
-        ("lissom-system", 5430),
-        ("lissom-core", 34_100),
-        ("lissom-drawing", 1720),
-        ("lissom-mesh", 3160),
-        ("lissom-model", 36_400),
-        ("lissom", 27_040),
-        ("lissom-cli", 5020),
-        ("lissom-fmi", 660),
-        ("lissom-python", 2180),
+    /// The crates.
+    const CRATES: [&str; 14] = [
+        "lissom-motion",
+        "lissom-solver",
+        "lissom-mechanics",
+        "lissom-flexible",
+        "lissom-contact",
+        "lissom-system",
+        "lissom-core",
+        "lissom-drawing",
+        "lissom-mesh",
+        "lissom-model",
+        "lissom",
+        "lissom-cli",
+        "lissom-fmi",
+        "lissom-python",
     ];
+
+    /// Those of the core.
+    const OF_CORE: [&str; 5] =
+        ["lissom-mechanics", "lissom-flexible", "lissom-contact", "lissom-system", "lissom-core"];
+
+    /// Lines of the sources of all crates. It is raised by a commit that does nothing else, with a row of docs/decisions/growth.md.
+    const MAX_LINES: usize = 164_300;
 
     /// Public modules at the top of the facade.
     const MAX_PUBLIC_MODULES: usize = 12;
@@ -430,7 +439,7 @@ mod tests {
     #[test]
     fn numeric_constants_of_the_core_do_not_become_more() {
         let count = |name| constants(&sources_of(name)).expect("readable sources");
-        let found: usize = ["lissom-mechanics", "lissom-system", "lissom-core"].map(count).iter().sum();
+        let found: usize = OF_CORE.map(count).iter().sum();
         assert_eq!(
             found, MAX_CONSTANTS,
             "unify a constant with one of the same meaning, or lower the number"
@@ -438,14 +447,13 @@ mod tests {
     }
 
     #[test]
-    fn crates_keep_to_their_budgets_of_lines() {
-        for (name, most) in MAX_LINES {
-            let found = lines(&sources_of(name)).expect("readable sources");
-            assert!(
-                found <= most,
-                "{name} has {found} lines instead of {most}: delete some, or give the reason"
-            );
-        }
+    fn the_sources_keep_to_their_budget_of_lines() {
+        let found: usize =
+            CRATES.map(|name| lines(&sources_of(name)).expect("readable sources")).iter().sum();
+        assert!(
+            found <= MAX_LINES,
+            "{found} lines instead of {MAX_LINES}: delete some, or say what they do in docs/decisions/growth.md"
+        );
     }
 
     #[test]
@@ -463,7 +471,7 @@ mod tests {
     #[test]
     fn files_of_the_core_import_each_other_in_small_cycles_within_one_folder() {
         let folder = |file: &String| file.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
-        for files in ["lissom-mechanics", "lissom-system", "lissom-core"].into_iter().flat_map(of) {
+        for files in OF_CORE.into_iter().flat_map(of) {
             assert!(
                 files.len() <= MAX_CYCLE,
                 "{} files import each other: {}",
@@ -494,7 +502,7 @@ mod tests {
 
     #[test]
     fn folders_stand_on_floors() {
-        for (name, _) in MAX_LINES {
+        for name in CRATES {
             let found = cycles_of_folders(&sources_of(name)).expect("readable sources");
             assert!(found.is_empty(), "folders of {name} import each other: {found:?}");
         }
@@ -519,10 +527,10 @@ mod tests {
 
     #[test]
     fn the_program_uses_the_facade_alone() {
-        let inner = ["lissom-model", "lissom-core", "lissom-system", "lissom-mechanics"];
+        let inner: Vec<&str> = OF_CORE.into_iter().chain(["lissom-model"]).collect();
         let manifest = sources_of("lissom-cli").join("../Cargo.toml");
         let manifest = std::fs::read_to_string(manifest).expect("a manifest");
-        let names = inner.map(|name| name.replace('-', "_"));
+        let names: Vec<String> = inner.iter().map(|name| name.replace('-', "_")).collect();
         for (file, source) in Crate::read(&sources_of("lissom-cli")).expect("readable sources").sources {
             let imports = source.imports.iter().map(|import| &import.path).chain(&source.paths);
             let mut first = imports.filter_map(|path| path.first());
@@ -532,7 +540,10 @@ mod tests {
                 file.join("/")
             );
         }
-        assert!(!inner.iter().any(|name| manifest.contains(name)), "the program depends on the facade alone");
+        assert!(
+            !inner.iter().any(|name| manifest.contains(*name)),
+            "the program depends on the facade alone"
+        );
     }
 
     #[test]

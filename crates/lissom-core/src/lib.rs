@@ -3,9 +3,11 @@
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 
+pub use lissom_contact as contact;
+pub use lissom_flexible as flexible;
 pub use lissom_mechanics::{
-    catalogued, contact, elements, evaluation, instants, joints, kinematics, law, number, ports, registry,
-    relation, round_off, signals,
+    catalogued, compliance, elements, evaluation, instants, joints, kinematics, law, number, ports, registry,
+    relation, round_off, signals, wheels,
 };
 pub use lissom_motion as motion;
 pub use lissom_solver::interrupt;

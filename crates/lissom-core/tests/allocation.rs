@@ -3,11 +3,11 @@
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 
-use lissom_core::contact::compliance::Compliance;
+use lissom_core::compliance::Compliance;
+use lissom_core::contact::forms::{Form, PlacedSolid, Solid};
 use lissom_core::contact::set::{ContactRule, ContactSet, Coulomb, Impact, TouchLaw, TouchingPart};
-use lissom_core::contact::solids::{Form, PlacedSolid, Solid};
-use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
+use lissom_core::flexible::beam::SectionLaw;
+use lissom_core::flexible::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::joints;
 use lissom_core::kinematics::Freedoms;
 use lissom_core::newton::Limits;

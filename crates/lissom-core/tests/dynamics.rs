@@ -1,9 +1,9 @@
 //! Whole systems in time: orders of convergence, energy, drift, statics.
 
-use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::elements::{Attached, LOADS};
+use lissom_core::flexible::beam::SectionLaw;
+use lissom_core::flexible::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::joints;
 use lissom_core::kinematics::Freedoms;
 use lissom_core::newton::Limits;

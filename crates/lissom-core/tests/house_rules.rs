@@ -32,7 +32,9 @@ fn identifiers(text: &str) -> Vec<(usize, String)> {
 /// The crates of the core with their sources, as names from `src` on.
 fn core_sources() -> Vec<(&'static str, String, PathBuf)> {
     let mut all = Vec::new();
-    for crate_name in ["lissom-mechanics", "lissom-system", "lissom-core"] {
+    for crate_name in
+        ["lissom-mechanics", "lissom-flexible", "lissom-contact", "lissom-system", "lissom-core"]
+    {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(crate_name).join("src");
         let mut files = Vec::new();
         sources(&root, &mut files);
@@ -61,13 +63,16 @@ fn offences(allowed: &[&str], words: &[&str]) -> Vec<String> {
     found
 }
 
+/// The crates of what is simulated, part by part.
+const OF_MECHANICS: [&str; 3] = ["lissom-mechanics", "lissom-flexible", "lissom-contact"];
+
 /// Mechanics holds no step: no field of a struct is one, by what its docstring says.
 #[test]
 fn no_struct_of_mechanics_holds_a_step() {
     // What the energy-decaying scheme shows to elements, and the exact time since the start of a step.
     let allowed = ["kinematics/step_stages.rs", "kinematics/motion.rs"];
     let of_mechanics =
-        core_sources().into_iter().filter(|(crate_name, ..)| *crate_name == "lissom-mechanics");
+        core_sources().into_iter().filter(|(crate_name, ..)| OF_MECHANICS.contains(crate_name));
     for (_, name, file) in of_mechanics.filter(|(_, name, _)| !allowed.contains(&name.as_str())) {
         let text = fs::read_to_string(&file).expect("readable");
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
@@ -313,7 +318,7 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the mechanics, and what of their crate they may name.
-const FLOORS: [(&str, &[&str]); 15] = [
+const FLOORS: [(&str, &[&str]); 16] = [
     ("number.rs", &["number"]),
     ("round_off.rs", &[]),
     ("instants.rs", &["round_off"]),
@@ -324,14 +329,15 @@ const FLOORS: [(&str, &[&str]); 15] = [
     ("registry.rs", &["kinematics", "law", "relation"]),
     ("diagnostics/", &["diagnostics", "kinematics", "number", "registry"]),
     ("ports.rs", &["kinematics", "registry"]),
-    ("contact/", &["contact", "dual", "kinematics", "law", "registry", "round_off"]),
+    ("compliance.rs", &["round_off"]),
+    ("wheels/", &["dual", "kinematics", "registry", "round_off", "wheels"]),
     ("signals/", &["diagnostics", "dual", "instants", "kinematics", "law", "number", "round_off", "signals"]),
-    ("joints/", &["contact", "joints", "kinematics", "law", "ports", "registry", "relation", "round_off"]),
-    ("evaluation/", &["contact", "evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
+    ("joints/", &["joints", "kinematics", "law", "ports", "registry", "relation", "round_off", "wheels"]),
+    ("evaluation/", &["evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
     (
         "elements/",
         &[
-            "contact",
+            "compliance",
             "dual",
             "elements",
             "evaluation",
@@ -343,6 +349,7 @@ const FLOORS: [(&str, &[&str]); 15] = [
             "registry",
             "round_off",
             "signals",
+            "wheels",
         ],
     ),
 ];

@@ -1,9 +1,9 @@
-//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, contact and signals. Independent of system,
+//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, wheels and signals. Independent of system,
 //! scheme and time step.
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 
-pub mod contact;
+pub mod compliance;
 pub mod diagnostics;
 pub mod dual;
 pub mod elements;
@@ -18,3 +18,4 @@ pub mod registry;
 pub mod relation;
 pub mod round_off;
 pub mod signals;
+pub mod wheels;

@@ -4,6 +4,7 @@ use lissom_motion::lie_bracket_matrix;
 use lissom_solver::{Group, Pattern};
 
 use super::{StepPoint, System};
+use lissom_contact::rigid::{NonPenetration, Sticking};
 use lissom_mechanics::evaluation::scatter_map::position_of;
 use lissom_mechanics::evaluation::scratch::with_scratch;
 use lissom_mechanics::evaluation::tangent_assembler::TangentAssembler;
@@ -15,7 +16,6 @@ use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
 use lissom_mechanics::joints::latch::Latch;
 use lissom_mechanics::joints::no_slip::NoSlip;
-use lissom_mechanics::joints::rigid_contact::{NonPenetration, Sticking};
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::joints::{Drive, MAX_EQUATIONS};

@@ -25,7 +25,7 @@ pub struct State {
     pub position_remainders: Vec<Vector3>,
     /// Values that a simulation accumulates along the motion, see `analysis::accumulated`.
     pub accumulated: Vec<f64>,
-    /// Touches of the parts of a [`ContactSet`](lissom_mechanics::contact::set::ContactSet) at the end of the last step, by ascending
+    /// Touches of the parts of a [`ContactSet`](lissom_contact::set::ContactSet) at the end of the last step, by ascending
     /// keys.
     pub touches: Vec<Touch>,
 }

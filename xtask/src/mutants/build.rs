@@ -15,10 +15,12 @@ const OF_THE_TEXT: &str = "house_rules";
 /// All tests but those of the chores.
 const ALL: [&str; 3] = ["--lib", "--test", "*"];
 /// Settings of cargo.
-const INCREMENTAL: [&str; 3] = [
+const INCREMENTAL: [&str; 5] = [
     "profile.release.incremental=true",
     "profile.release.package.lissom-core.codegen-units=64",
     "profile.release.package.lissom-mechanics.codegen-units=64",
+    "profile.release.package.lissom-flexible.codegen-units=64",
+    "profile.release.package.lissom-contact.codegen-units=64",
 ];
 /// Lines of the compiler that are shown.
 const SHOWN: usize = 40;

@@ -12,7 +12,7 @@
 use lissom_motion::Vector3;
 use nalgebra::{DMatrix, DVector};
 
-use crate::elements::superelement::{PAIRS, TurningMatrices};
+use crate::flexible::superelement::{PAIRS, TurningMatrices};
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
 use crate::system::System;
 

@@ -21,7 +21,7 @@ use lissom_motion::Vector3;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::reduction::Reduction;
-use crate::elements::superelement::{Damping, flexibility, rigid_column};
+use crate::flexible::superelement::{Damping, flexibility, rigid_column};
 
 /// Fraction of the elastic energy that may be missing under loads that change the stiffness by its full amount: shapes of first
 /// order in the loads neglect as much.

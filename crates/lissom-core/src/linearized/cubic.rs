@@ -23,7 +23,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use crate::elements::superelement::{GeometricMatrices, Shortening};
+use crate::flexible::superelement::{GeometricMatrices, Shortening};
 use crate::round_off;
 
 /// ε: minimum weight of bending modes.
@@ -241,7 +241,7 @@ fn shortening(modes: &Modes, natural: &[DMatrix<f64>]) -> Vec<Shortening> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elements::superelement::TurningMatrices;
+    use crate::flexible::superelement::TurningMatrices;
 
     /// Four unknowns besides the first interface: two bending, one that is stretched by both, and one that is twisted by both
     /// together.

@@ -24,7 +24,7 @@ use super::cubic::{LoadState, SecondOrder};
 use super::model::{LinearModel, nothing, point};
 use super::reduction::{Assembly, ReductionError};
 use super::shifted::RealShift;
-use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, TurningMatrices};
+use crate::flexible::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, TurningMatrices};
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId};
 use crate::system::System;
 

@@ -25,7 +25,7 @@ use super::model::{LinearError, LinearModel, is_symmetric, nothing, point};
 use super::shifted::RealShift;
 use super::velocity_constraints::refuse;
 use crate::diagnostics::{Diagnostic, diagnostics};
-use crate::elements::superelement::{Damping, ReducedMatrices};
+use crate::flexible::superelement::{Damping, ReducedMatrices};
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeId, Subject};
 use crate::round_off;

@@ -2,7 +2,6 @@
 //! with the time in which the point of contact travels round.
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::contact::wheel_on_rail::Pose;
 use crate::errors::Warning;
 use crate::errors::warn;
 use crate::joints::Equations;
@@ -10,6 +9,7 @@ use crate::joints::attached::AttachedJoint;
 use crate::kinematics::Kinematics;
 use crate::round_off;
 use crate::system::{State, System};
+use crate::wheels::wheel_on_rail::Pose;
 
 /// A point of contact that travels by this angle in a step is not resolved: the error of all schemes is a twelfth of its
 /// third power in a step, here 1 % of the circle's radius [rad].

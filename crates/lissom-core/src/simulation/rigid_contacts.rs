@@ -20,9 +20,9 @@ use super::Simulation;
 use super::contact_problem::{Condition, ContactProblem};
 use super::held_values::settle;
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
+use crate::contact::rigid::{Mode, RigidContact, Touching};
 use crate::errors::{InitialError, StepError, Warning, warn};
 use crate::integrator::dense::at_share;
-use crate::joints::rigid_contact::{Mode, RigidContact, Touching};
 use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
 use crate::system::{State, System};
 

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use lissom_core::contact::compliance::Compliance;
-use lissom_core::contact::gap::Pair;
-use lissom_core::contact::pairs::PointOnSurface;
-use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
-use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
-use lissom_core::elements::beam::section::Section;
-use lissom_core::elements::beam_contact::BeamContact;
-use lissom_core::elements::contact::ContactFriction;
+use lissom_core::compliance::Compliance;
+use lissom_core::contact::elastic::ContactFriction;
+use lissom_core::contact::geometry::gap::Pair;
+use lissom_core::contact::geometry::pairs::PointOnSurface;
+use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_core::contact::of_beams::BeamContact;
 use lissom_core::elements::{Contribution, Element, Spring};
+use lissom_core::flexible::beam::SectionLaw;
+use lissom_core::flexible::beam::line::{BeamLineDescription, beam_line};
+use lissom_core::flexible::beam::section::Section;
 use lissom_core::kinematics::{CarriedFrame, Freedoms, GROUND, Kinematics};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Matrix6, Motion, Vector3, screw};

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use lissom_core::contact::compliance::Compliance;
-use lissom_core::contact::curves::Segment;
-use lissom_core::contact::gap::Pair;
-use lissom_core::contact::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
-use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_core::compliance::Compliance;
+use lissom_core::contact::elastic::resistance::ContactResistance;
+use lissom_core::contact::elastic::{Contact, ContactFriction, Dissipation};
+use lissom_core::contact::geometry::curves::Segment;
+use lissom_core::contact::geometry::gap::Pair;
+use lissom_core::contact::geometry::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
+use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::elements::Contribution;
-use lissom_core::elements::contact::{Contact, ContactFriction, Dissipation};
-use lissom_core::elements::contact_resistance::ContactResistance;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Freedoms, GROUND, Switch};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};

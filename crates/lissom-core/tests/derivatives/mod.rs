@@ -22,8 +22,8 @@ mod solids;
 mod superelement;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
-use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{LOADS, SPRINGS};
+use lissom_core::flexible::beam::{Beam, SectionLaw};
 use lissom_core::joints::constraint::violation_rates;
 use lissom_core::joints::derivatives::IncrementTangent;
 use lissom_core::joints::evaluation_point::Chart;

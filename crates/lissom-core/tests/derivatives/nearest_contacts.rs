@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_core::contact::compliance::Compliance;
-use lissom_core::elements::nearest_contact::{CarriedCurve, CarriedPoint, NearestContact};
+use lissom_core::compliance::Compliance;
+use lissom_core::contact::nearest::{CarriedCurve, CarriedPoint, NearestContact};
 use lissom_core::elements::{Contribution, Element};
 use lissom_core::joints::centerline::Centerline;
 use lissom_core::kinematics::{Freedoms, GROUND};

@@ -2,8 +2,8 @@
 //! proportional to what differs.
 
 use lissom_core::elements::Element;
-use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::{Gravity, Inertia};
+use lissom_core::flexible::beam::{Beam, SectionLaw};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_core::system::Builder;
 use lissom_motion::{Matrix6, Motion, Vector3};

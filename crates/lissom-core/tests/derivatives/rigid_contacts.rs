@@ -1,7 +1,7 @@
 //! Rigid contacts of all pairs of solids, in all modes: derivatives of constraints and friction.
 
+use lissom_core::contact::rigid::{Mode, RigidLaw};
 use lissom_core::joints::constraint::violation_rates;
-use lissom_core::joints::rigid_contact::{Mode, RigidLaw};
 use lissom_core::kinematics::{CarriedFrame, Freedoms, Kinematics};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};

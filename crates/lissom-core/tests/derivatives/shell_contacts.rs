@@ -1,11 +1,11 @@
 //! Contacts of balls with elements of shells: derivatives, energy and momentum, within an element, between elements, at edges and corners.
 
-use lissom_core::contact::compliance::Compliance;
-use lissom_core::elements::contact::ContactFriction;
-use lissom_core::elements::shell::contact::{ShellContact, contact_patches};
-use lissom_core::elements::shell::section::{Ply, ShellLaw};
-use lissom_core::elements::shell::surface::{ShellSection, SurfaceDescription, shell_surface};
+use lissom_core::compliance::Compliance;
+use lissom_core::contact::elastic::ContactFriction;
+use lissom_core::contact::of_shells::{ShellContact, contact_patches};
 use lissom_core::elements::{Contribution, Element};
+use lissom_core::flexible::shell::section::{Ply, ShellLaw};
+use lissom_core::flexible::shell::surface::{ShellSection, SurfaceDescription, shell_surface};
 use lissom_core::kinematics::{Freedoms, GROUND, Kinematics};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};

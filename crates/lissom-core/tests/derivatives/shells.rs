@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::mass_distribution::MassDistribution;
-use lissom_core::elements::shell::Shell;
-use lissom_core::elements::shell::damping::ShellDamping;
-use lissom_core::elements::shell::pressure::Pressure;
-use lissom_core::elements::shell::section::{Ply, ShellLaw};
 use lissom_core::elements::{Element, OwnInertia, Tangents};
+use lissom_core::flexible::shell::Shell;
+use lissom_core::flexible::shell::damping::ShellDamping;
+use lissom_core::flexible::shell::pressure::Pressure;
+use lissom_core::flexible::shell::section::{Ply, ShellLaw};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};

@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::solid::law::{SolidLaw, SolidModel};
-use lissom_core::elements::solid::pressure::{FacePressure, area_shares};
-use lissom_core::elements::solid::shape::{hexahedron_node, tetrahedron_node};
-use lissom_core::elements::solid::volume::{hexahedron_shares, tetrahedron_shares};
-use lissom_core::elements::solid::{Hexahedron, Tetrahedron};
 use lissom_core::elements::{Deformable, Element, Tangents};
+use lissom_core::flexible::solid::law::{SolidLaw, SolidModel};
+use lissom_core::flexible::solid::pressure::{FacePressure, area_shares};
+use lissom_core::flexible::solid::shape::{hexahedron_node, tetrahedron_node};
+use lissom_core::flexible::solid::volume::{hexahedron_shares, tetrahedron_shares};
+use lissom_core::flexible::solid::{Hexahedron, Tetrahedron};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId, Stressed};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Rotation, Vector3};

@@ -1,11 +1,11 @@
 //! Superelements: derivatives, invariance under rigid motion, conservation, and what matrices are rejected.
 
 use lissom_core::elements::inertia::Gravity;
-use lissom_core::elements::superelement::{
+use lissom_core::elements::{Deformable, LinearLimit};
+use lissom_core::flexible::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Shortening, Superelement,
     SuperelementDescription, TurningMatrices, superelement,
 };
-use lissom_core::elements::{Deformable, LinearLimit};
 use lissom_core::kinematics::{Freedoms, NodeId};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};

@@ -5,13 +5,13 @@ use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use nalgebra::{SMatrix, SVector};
 
 use super::{Capabilities, Element, Load, Tangents, Unknowns};
-use crate::contact::CreepLaw;
-use crate::contact::creep_law::Creep;
-use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::dual::{Dual, Number};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CarriedFrame, Kinematics};
+use crate::wheels::CreepLaw;
+use crate::wheels::creep_law::Creep;
+use crate::wheels::wheel_on_rail::{Pose, RailContact};
 
 /// Derivatives of a force: with respect to the tip's variation, its twist relative to the base, and the normal force.
 const DIRECTIONS: usize = 13;

@@ -62,7 +62,7 @@ enum Side {
 
 /// A force and its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Response {
+pub struct Response {
     /// The force [N, N m], positive if it pulls.
     pub force: f64,
     /// Derivative with respect to the elongation [N/m, N m/rad].
@@ -73,7 +73,7 @@ pub(crate) struct Response {
 
 impl Response {
     /// Gradients of the elongation, its rate and the force, from those of the first two.
-    pub(crate) fn gradients(&self, [elongation, rate]: [Gradient; 2]) -> [Gradient; 3] {
+    pub fn gradients(&self, [elongation, rate]: [Gradient; 2]) -> [Gradient; 3] {
         let force = Gradient::zero().plus(self.stiffness, &elongation).plus(self.damping, &rate);
         [elongation, rate, force]
     }

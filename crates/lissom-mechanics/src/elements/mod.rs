@@ -3,19 +3,15 @@
 //! An element computes forces and their derivatives from positions, twists and accelerations in SI. It is independent
 //! of time step, scheme and scaling.
 
-pub mod beam;
-pub mod beam_contact;
 mod bearing;
 pub mod bushing;
-pub mod contact;
-pub mod contact_resistance;
 pub mod contribution;
 pub mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
 pub mod creep_force;
 pub mod force;
 mod force_between;
-pub(crate) mod force_law;
+pub mod force_law;
 pub mod friction;
 pub mod gyrostat;
 pub mod inertia;
@@ -26,23 +22,17 @@ pub mod kind;
 mod kinds;
 pub mod latch;
 mod law_of_distance;
-mod least_distance;
 pub mod local_load;
 pub mod mass_distribution;
 pub mod moment;
-pub mod nearest_contact;
 pub(crate) mod point_spring;
 pub mod quadrature;
 mod reactions;
-pub mod rigid_friction;
 pub mod rolling;
 pub mod rolling_contact;
 pub mod rope;
 pub mod shape;
-pub mod shell;
-pub mod solid;
 pub mod stop;
-pub mod superelement;
 
 pub use contribution::Contribution;
 pub use initial_model::InitialModel;
@@ -53,4 +43,4 @@ pub use crate::evaluation::capabilities::{
     Capabilities, Deformable, ForceLaws, LinearLimit, LinearRange, Load, OwnInertia, Spring, StrainSlopes,
 };
 pub use crate::evaluation::element::{Element, Energy, Tangents, Unknowns, is_same};
-pub(crate) use crate::kinematics::local_derivatives::add_block;
+pub use crate::kinematics::local_derivatives::add_block;

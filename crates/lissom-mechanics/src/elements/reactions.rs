@@ -7,8 +7,6 @@ use nalgebra::SVector;
 use super::creep_force::{CreepForce, contact_derivatives};
 use super::rolling::RollingCreep;
 use super::{Element, Tangents};
-use crate::contact::wheel_on_plane::DIRECTIONS;
-use crate::contact::wheel_on_rail::{Pose, RailContactValues};
 use crate::joints::Constraint;
 use crate::joints::attached::{AttachedJoint, ported};
 use crate::joints::derivatives::TIP;
@@ -16,6 +14,8 @@ use crate::joints::no_slip::NoSlip;
 use crate::joints::{Equations, Gradient, MAX_EQUATIONS};
 use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CarriedFrame, Kinematics, split};
+use crate::wheels::wheel_on_plane::DIRECTIONS;
+use crate::wheels::wheel_on_rail::{Pose, RailContactValues};
 
 impl AttachedJoint {
     /// Position and forces of the contact between a wheel and its rail, for the multipliers `mu`; none for other

@@ -12,9 +12,9 @@
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
 use super::{Element, Tangents, Unknowns};
-use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics};
+use crate::wheels::wheel_on_plane::{Contact, DIRECTIONS};
 
 /// A wheel that creeps on a plane.
 #[derive(Clone, Debug)]

@@ -24,14 +24,14 @@ use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
-use crate::contact::compliance::Compliance;
-use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
+use crate::compliance::Compliance;
 use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics, Switch};
 use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
+use crate::wheels::wheel_on_plane::{Contact, DIRECTIONS};
 
 /// Sliding velocities below this are those of rolling, where the law is linear [m/s].
 const ROLLING_SPEED: f64 = 1e-9;

@@ -6,7 +6,7 @@ use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
-use crate::contact::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
+use crate::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
 use crate::ports::Ports;

@@ -37,11 +37,11 @@ pub trait Blocks: Send + Sync {
 }
 
 /// A constant of each element of a block.
-pub(crate) fn block_of<E>(elements: &[E], number: impl Fn(&E) -> f64) -> Block {
+pub fn block_of<E>(elements: &[E], number: impl Fn(&E) -> f64) -> Block {
     std::array::from_fn(|lane| number(&elements[lane.min(elements.len() - 1)]))
 }
 
 /// One node of each element of a block.
-pub(crate) fn nodes_of<E>(elements: &[E], node: impl Fn(&E) -> NodeId) -> [NodeId; WIDTH] {
+pub fn nodes_of<E>(elements: &[E], node: impl Fn(&E) -> NodeId) -> [NodeId; WIDTH] {
     std::array::from_fn(|lane| node(&elements[lane.min(elements.len() - 1)]))
 }

@@ -4,13 +4,21 @@
 use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
-use crate::contact::hollow::Hollow;
 use crate::kinematics::{
     CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Stressed, Subject, Switch,
 };
 use crate::law::VisitLaw;
 use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
+
+/// Penetrations of two sides of a surface by a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hollow {
+    /// Of the nearest side [m].
+    pub depth: f64,
+    /// Of the other side, after a displacement of the ball out of the nearest one [m].
+    pub remaining: f64,
+}
 
 /// Capabilities of an element, the same for all elements of a kind: a loop over a batch ends at the first element
 /// without the one it needs.

@@ -88,7 +88,7 @@ impl Tangents {
     }
 
     /// Adds the derivatives of all forces with respect to a multiplier, the last local unknown.
-    pub(crate) fn add_by_multiplier(&mut self, forces: &[f64]) {
+    pub fn add_by_multiplier(&mut self, forces: &[f64]) {
         self.multipliers = 1;
         for (i, force) in forces.iter().enumerate() {
             self.stiffness[(i + 1) * self.size - 1] += force;

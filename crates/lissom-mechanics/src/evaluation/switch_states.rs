@@ -11,7 +11,7 @@ pub struct SwitchStates {
 
 impl SwitchStates {
     /// `count` sides, stored from the held value `first` on.
-    pub(crate) fn held_at(first: usize, count: usize) -> Self {
+    pub fn held_at(first: usize, count: usize) -> Self {
         Self { held: Some((first, count)) }
     }
 

@@ -9,10 +9,10 @@ use super::{
     Branch, ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_COORDINATES,
     Relative,
 };
-use crate::contact::CreepLaw;
-use crate::contact::wheel_on_plane::Contact;
-use crate::contact::wheel_on_rail::RailContact;
 use crate::kinematics::Quantity;
+use crate::wheels::CreepLaw;
+use crate::wheels::wheel_on_plane::Contact;
+use crate::wheels::wheel_on_rail::RailContact;
 
 /// A joint of any kind.
 pub trait AnyJoint: Send + Sync + std::fmt::Debug {

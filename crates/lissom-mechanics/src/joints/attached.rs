@@ -17,9 +17,9 @@ use super::{
     AnyJoint, ConstraintHessian, Equations, Gradient, JointCoordinates, MAX_COORDINATES, MAX_EQUATIONS,
     Relative,
 };
-use crate::contact::wheel_on_plane::DIRECTIONS;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, Quantity, split};
+use crate::wheels::wheel_on_plane::DIRECTIONS;
 
 /// Derivatives of the equations with respect to the local unknowns.
 pub type LocalGradient = SMatrix<f64, MAX_EQUATIONS, LOCAL>;

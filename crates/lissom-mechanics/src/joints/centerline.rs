@@ -63,7 +63,7 @@ impl Centerline {
     }
 
     /// Arc lengths of both ends of an interval [m].
-    pub(crate) fn ends(&self, interval: usize) -> [f64; 2] {
+    pub fn ends(&self, interval: usize) -> [f64; 2] {
         [self.knots[interval], self.knots[interval + 1]]
     }
 
@@ -92,7 +92,7 @@ impl Centerline {
     }
 
     /// Weights at `s` by the formula of an interval.
-    pub(crate) fn within(&self, interval: usize, s: f64) -> Support {
+    pub fn within(&self, interval: usize, s: f64) -> Support {
         let (first, count) = self.nodes_of(interval);
         let mut support = Support { first, count, ..Support::default() };
         let length = self.knots[interval + 1] - self.knots[interval];

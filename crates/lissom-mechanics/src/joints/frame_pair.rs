@@ -14,38 +14,42 @@ use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
 /// Base's and tip's frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FramePair {
-    pub(crate) nodes: [NodeId; 2],
+pub struct FramePair {
+    /// Nodes of base and tip.
+    pub nodes: [NodeId; 2],
     pub(crate) frames: [CarriedFrame; 2],
 }
 
 /// Relative motion of the two frames.
-pub(crate) struct RelativeMotion {
+pub struct RelativeMotion {
     /// A.
     to_tip: Matrix6,
     /// (R, x).
     pub(crate) relative: Motion,
-    pub(crate) rotation: Matrix3,
+    /// Rotation matrix of the tip in the base.
+    pub rotation: Matrix3,
     /// x [m].
-    pub(crate) position: Vector3,
+    pub position: Vector3,
     /// V_tip - A V_base.
-    pub(crate) twist: Vector6,
+    pub twist: Vector6,
     /// A V_base.
-    pub(crate) carried: Vector6,
+    pub carried: Vector6,
 }
 
 impl FramePair {
-    pub(crate) fn new(frames: [CarriedFrame; 2]) -> Self {
+    /// Of the frames of base and tip.
+    pub fn new(frames: [CarriedFrame; 2]) -> Self {
         Self { nodes: frames.map(|frame| frame.node), frames }
     }
 
     /// (R, x).
-    pub(crate) fn relative(&self, at: &Kinematics) -> Motion {
+    pub fn relative(&self, at: &Kinematics) -> Motion {
         let [base, tip] = self.frames.map(|frame| frame.frame(at));
         tip.relative_to(&base)
     }
 
-    pub(crate) fn motion(&self, at: &Kinematics) -> RelativeMotion {
+    /// Relative motion at a configuration.
+    pub fn motion(&self, at: &Kinematics) -> RelativeMotion {
         let twists = self.frames.map(|frame| frame.offset.adjoint_inverse_times(&at.nodes[frame.node].twist));
         let relative = self.relative(at);
         let to_tip = relative.inverse().adjoint();
@@ -61,12 +65,12 @@ impl FramePair {
     }
 
     /// From the axes of the base's frame to global ones.
-    pub(crate) fn base_rotation(&self, at: &Kinematics) -> Matrix3 {
+    pub fn base_rotation(&self, at: &Kinematics) -> Matrix3 {
         (at.nodes[self.nodes[0]].frame.rotation * self.frames[0].offset.rotation).matrix()
     }
 
     /// The base's frame in the inertial frame.
-    pub(crate) fn base_frame(&self, at: &Kinematics) -> Motion {
+    pub fn base_frame(&self, at: &Kinematics) -> Motion {
         self.frames[0].frame(at)
     }
 
@@ -76,13 +80,13 @@ impl FramePair {
     }
 
     /// Derivatives of η with respect to variations of base and tip.
-    pub(crate) fn columns(&self, motion: &RelativeMotion) -> [Matrix6; 2] {
+    pub fn columns(&self, motion: &RelativeMotion) -> [Matrix6; 2] {
         let carry = self.carry();
         [-motion.to_tip * carry[0], carry[1]]
     }
 
     /// Adds the forces on both nodes from a wrench on the tip's frame and the opposite one on the base's.
-    pub(crate) fn add_wrench(&self, motion: &RelativeMotion, wrench: &Vector6, out: &mut [f64]) {
+    pub fn add_wrench(&self, motion: &RelativeMotion, wrench: &Vector6, out: &mut [f64]) {
         let carry = self.carry();
         let on = [carry[0].tr_mul(&-motion.to_tip.tr_mul(wrench)), carry[1].tr_mul(wrench)];
         for (out, value) in out.iter_mut().zip(on.iter().flat_map(|wrench| wrench.iter())) {
@@ -92,7 +96,7 @@ impl FramePair {
 
     /// Adds their derivatives with respect to variations of the nodes, from those of the wrench with respect to η, to a local
     /// matrix with rows of `size`.
-    pub(crate) fn add_stiffness(
+    pub fn add_stiffness(
         &self,
         motion: &RelativeMotion,
         (wrench, by_place): (&Vector6, &Matrix6),
@@ -117,12 +121,7 @@ impl FramePair {
     }
 
     /// Adds their derivatives with respect to twists of the nodes, from those of the wrench with respect to η̇, likewise.
-    pub(crate) fn add_damping(
-        &self,
-        motion: &RelativeMotion,
-        by_rate: &Matrix6,
-        (size, out): (usize, &mut [f64]),
-    ) {
+    pub fn add_damping(&self, motion: &RelativeMotion, by_rate: &Matrix6, (size, out): (usize, &mut [f64])) {
         let columns = self.columns(motion);
         for (i, row) in columns.iter().enumerate() {
             for (j, column) in columns.iter().enumerate() {

@@ -21,7 +21,7 @@ pub mod distance;
 pub mod drive;
 pub mod equation;
 pub mod evaluation_point;
-pub(crate) mod frame_pair;
+pub mod frame_pair;
 pub mod gear;
 pub mod generalized_coordinates;
 pub mod generic;
@@ -44,7 +44,6 @@ pub mod prismatic;
 pub mod relative_increment;
 pub(crate) mod relative_jets;
 pub mod revolute;
-pub mod rigid_contact;
 pub mod rigid_link;
 pub mod rolling;
 pub(crate) mod scalar_batch;
@@ -67,7 +66,7 @@ pub use kinds::KINDS;
 use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3};
 use nalgebra::SMatrix;
 
-use crate::contact::wheel_on_plane::Contact;
+use crate::wheels::wheel_on_plane::Contact;
 use relative_increment::{CoordinateIncrement, RelativeIncrement};
 
 use crate::kinematics::Quantity;

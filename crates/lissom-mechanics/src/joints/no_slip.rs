@@ -15,9 +15,9 @@ use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use super::constraint::{Constraint, Level, Port};
 use super::evaluation_point::Increments;
 use super::frame_pair::{FramePair, RelativeMotion};
-use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::kinematics::local_derivatives::add_block;
 use crate::kinematics::{CarriedFrame, Kinematics, Quantity};
+use crate::wheels::wheel_on_plane::{Contact, DIRECTIONS};
 
 /// Names of the equations.
 pub const EQUATIONS: [&str; DIRECTIONS] = ["rolling along the first axis", "rolling along the second axis"];

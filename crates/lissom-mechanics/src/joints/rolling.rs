@@ -21,10 +21,10 @@ use super::{
     ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
-use crate::contact::wheel_on_plane::{Contact, upright};
 use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
+use crate::wheels::wheel_on_plane::{Contact, upright};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {

@@ -16,14 +16,14 @@ use super::kind::{Build, Geometry, JointKind};
 use super::{
     AnyJoint, ConstraintHessian, Coordinate, Equations, Gradient, JointCoordinates, MAX_COORDINATES, Relative,
 };
-use crate::contact::CreepLaw;
-use crate::contact::profile::{RailProfile, WheelProfile};
-use crate::contact::wheel_on_plane::Contact;
-use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::kinematics::Quantity;
 use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
+use crate::wheels::CreepLaw;
+use crate::wheels::profile::{RailProfile, WheelProfile};
+use crate::wheels::wheel_on_plane::Contact;
+use crate::wheels::wheel_on_rail::{Pose, RailContact};
 
 /// Default half width of a tread, in radii of the wheel.
 const TREAD: f64 = 0.5;

@@ -35,7 +35,7 @@ impl<const N: usize> LocalDerivatives<N> {
 }
 
 /// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
-pub(crate) fn add_block<const R: usize, const C: usize>(
+pub fn add_block<const R: usize, const C: usize>(
     matrix: &mut [f64],
     size: usize,
     (row, column): (usize, usize),

@@ -119,7 +119,7 @@ impl MotionChange {
     }
 
     /// log H of a small change, without cancellation: relative error |θ|⁶/20.
-    pub(crate) fn small_logarithm(&self) -> Vector6 {
+    pub fn small_logarithm(&self) -> Vector6 {
         let sine = axial(&self.turn);
         let square = sine.norm_squared();
         let theta = sine * (1.0 + square * (1.0 / 6.0 + square * 0.075));
@@ -128,7 +128,7 @@ impl MotionChange {
 
     /// The same change for a frame fixed at `offset`: O⁻¹ (E, p) O.
     #[must_use]
-    pub(crate) fn carried_at(&self, offset: &Motion) -> Self {
+    pub fn carried_at(&self, offset: &Motion) -> Self {
         if offset.rotation == Rotation::IDENTITY {
             return Self { turn: self.turn, shift: self.shift + self.turn * offset.position };
         }

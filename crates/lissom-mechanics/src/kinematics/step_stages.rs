@@ -46,7 +46,7 @@ pub struct StepStages<'a> {
 
 impl StepStages<'_> {
     /// Values at the stages, integrated from `start` with the rates there.
-    pub(crate) fn at_stages<T>(&self, start: T, rates: [T; STAGES]) -> [T; STAGES]
+    pub fn at_stages<T>(&self, start: T, rates: [T; STAGES]) -> [T; STAGES]
     where
         T: Copy + Add<Output = T> + Mul<f64, Output = T>,
     {
@@ -75,7 +75,7 @@ impl StepStages<'_> {
 
 /// Weight of a remainder of the given size: 1 well above round-off, and smoothly 0 below, where the remainder is
 /// noise that would be divided by rates that may be small themselves.
-pub(crate) fn above_round_off(size: f64, round_off: f64) -> f64 {
+pub fn above_round_off(size: f64, round_off: f64) -> f64 {
     let ratio = (size / round_off).powi(4);
     if ratio.is_finite() { ratio / (1.0 + ratio) } else { 1.0 }
 }

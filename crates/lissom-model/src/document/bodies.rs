@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use lissom_mechanics::contact::solids::Solid;
+use lissom_contact::forms::Solid;
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::entries::each;

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use lissom_mechanics::contact::compliance::{Compliance, MIN_RESTITUTION, RestitutionLaw};
-use lissom_mechanics::contact::solids::PlacedSolid;
-use lissom_mechanics::elements::contact::ContactFriction;
-use lissom_mechanics::joints::rigid_contact::RigidLaw;
+use lissom_contact::elastic::ContactFriction;
+use lissom_contact::forms::PlacedSolid;
+use lissom_contact::rigid::RigidLaw;
+use lissom_mechanics::compliance::{Compliance, MIN_RESTITUTION, RestitutionLaw};
 use lissom_motion::Vector3;
 
 use super::beam_contacts::{self, BeamContactEntry, NOT_OF_BEAMS, OF_BEAMS};

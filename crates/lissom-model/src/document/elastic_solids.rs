@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
-use lissom_mechanics::elements::solid::law::{SolidLaw, SolidModel};
-use lissom_mechanics::elements::solid::shape::{HEXAHEDRON_EDGES, TETRAHEDRON_EDGES, hexahedron_node};
-use lissom_mechanics::elements::solid::volume::{hexahedron_shares, tetrahedron_shares};
+use lissom_flexible::solid::law::{SolidLaw, SolidModel};
+use lissom_flexible::solid::shape::{HEXAHEDRON_EDGES, TETRAHEDRON_EDGES, hexahedron_node};
+use lissom_flexible::solid::volume::{hexahedron_shares, tetrahedron_shares};
 use lissom_mesh::{Mesh, MeshShape};
 use lissom_motion::{Motion, Vector3};
 

@@ -37,8 +37,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_mechanics::contact::solids::PlacedSolid;
-use lissom_mechanics::elements::superelement::ReducedMatrices;
+use lissom_contact::forms::PlacedSolid;
+use lissom_flexible::superelement::ReducedMatrices;
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};

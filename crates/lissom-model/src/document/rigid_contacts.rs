@@ -1,6 +1,6 @@
 //! Rigid contacts, which have no stiffness.
 
-use lissom_mechanics::joints::rigid_contact::RigidLaw;
+use lissom_contact::rigid::RigidLaw;
 
 use crate::reading::reader::Reader;
 

@@ -1,7 +1,7 @@
 //! Contacts of shells: their keys, and what these say of the law of contact.
 
-use lissom_mechanics::contact::compliance::Compliance;
-use lissom_mechanics::elements::contact::ContactFriction;
+use lissom_contact::elastic::ContactFriction;
+use lissom_mechanics::compliance::Compliance;
 
 use super::NodeReference;
 use super::beam_contacts::beam_of;

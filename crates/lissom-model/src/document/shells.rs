@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_mechanics::elements::shell::section::Ply;
+use lissom_flexible::shell::section::Ply;
 use lissom_mesh::{Mesh, MeshFaultKind, MeshShape, Severity};
 use lissom_motion::{Motion, Vector3};
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::contact::curves::Spline;
-use lissom_mechanics::contact::solids::{Form, PlacedSolid, Solid, Triangles};
-use lissom_mechanics::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
+use lissom_contact::forms::{Form, PlacedSolid, Solid, Triangles};
+use lissom_contact::geometry::curves::Spline;
+use lissom_contact::geometry::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use crate::files::library::joined;

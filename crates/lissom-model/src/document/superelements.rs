@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::superelement::{Damping, GeometricMatrices, ReducedMatrices};
+use lissom_flexible::superelement::{Damping, GeometricMatrices, ReducedMatrices};
 use lissom_motion::Vector3;
 use nalgebra::DMatrix;
 

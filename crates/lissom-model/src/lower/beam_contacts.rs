@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::contact::compliance::Compliance;
-use lissom_mechanics::contact::pairs::PointOnSurface;
-use lissom_mechanics::contact::solids::{Form, spacing_of_rounds};
-use lissom_mechanics::contact::surfaces::Rod;
+use lissom_contact::forms::{Form, spacing_of_rounds};
+use lissom_contact::geometry::pairs::PointOnSurface;
+use lissom_contact::geometry::surfaces::Rod;
+use lissom_contact::nearest::{CarriedCurve, CarriedPoint, NearestContact};
+use lissom_contact::of_beams::BeamContact;
+use lissom_flexible::beam::line::BeamLine;
+use lissom_flexible::beam::section::Section;
+use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::elements::Element;
-use lissom_mechanics::elements::beam::line::BeamLine;
-use lissom_mechanics::elements::beam::section::Section;
-use lissom_mechanics::elements::beam_contact::BeamContact;
-use lissom_mechanics::elements::nearest_contact::{CarriedCurve, CarriedPoint, NearestContact};
 use lissom_mechanics::joints::centerline::Centerline;
 use lissom_mechanics::kinematics::{CarriedFrame, MAX_NODES, NodeId};
 use lissom_mechanics::number::written;

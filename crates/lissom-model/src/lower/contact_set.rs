@@ -1,9 +1,9 @@
 //! Contacts of schemes that solve for all touches of a step at once: their parts and laws, without elements and events.
 
-use lissom_mechanics::contact::compliance::Compliance;
-use lissom_mechanics::contact::set::{ContactRule, Coulomb, Impact, TouchLaw, TouchingPart};
-use lissom_mechanics::contact::solids::{FormKind, PlacedSolid};
-use lissom_mechanics::elements::contact::ContactFriction;
+use lissom_contact::elastic::ContactFriction;
+use lissom_contact::forms::{FormKind, PlacedSolid};
+use lissom_contact::set::{ContactRule, Coulomb, Impact, TouchLaw, TouchingPart};
+use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::kinematics::NodeId;
 use lissom_system::Builder;
 

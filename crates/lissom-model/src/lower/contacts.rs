@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::contact::compliance::Compliance;
-use lissom_mechanics::contact::gap::Pair;
-use lissom_mechanics::contact::solids::{Meeting, PlacedSolid, meetings};
+use lissom_contact::elastic::resistance::ContactResistance;
+use lissom_contact::elastic::{Contact, ContactMotion, Dissipation};
+use lissom_contact::forms::{Meeting, PlacedSolid, meetings};
+use lissom_contact::geometry::gap::Pair;
+use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::Contribution;
-use lissom_mechanics::elements::contact::{Contact, ContactMotion, Dissipation};
-use lissom_mechanics::elements::contact_resistance::ContactResistance;
 use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, Subject};
 use lissom_mechanics::signals::event::{Direction, Event};
 use lissom_mechanics::signals::measurement::Component;

@@ -11,7 +11,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_flexible::beam::line::BeamLine;
 use lissom_mechanics::elements::quadrature::gauss_lobatto;
 use lissom_mechanics::elements::{Attached, force};
 use lissom_mechanics::registry::{Function, Parameters, Value};

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use lissom_flexible::solid::pressure::FacePressure;
+use lissom_flexible::solid::volume::{SolidVolume, VolumeDescription, solid_volume};
 use lissom_mechanics::elements::Contribution;
-use lissom_mechanics::elements::solid::pressure::FacePressure;
-use lissom_mechanics::elements::solid::volume::{SolidVolume, VolumeDescription, solid_volume};
 use lissom_system::Builder;
 
 use super::names::Names;

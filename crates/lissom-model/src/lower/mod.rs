@@ -32,7 +32,7 @@ mod superelements;
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::beam::section_error::{ExaminedBeams, SectionError};
+use lissom_flexible::beam::section_error::{ExaminedBeams, SectionError};
 use lissom_mechanics::kinematics::{CoordinateId, NodeId};
 use lissom_system::accumulated::Accumulated;
 use lissom_system::{Builder, State, System};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_flexible::beam::line::BeamLine;
 use lissom_mechanics::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::Argument;

@@ -1,7 +1,7 @@
 //! Bodies, point masses and beams as nodes with mass and elements.
 
-use lissom_mechanics::elements::beam::SectionLaw;
-use lissom_mechanics::elements::beam::line::{BeamLineDescription, beam_line};
+use lissom_flexible::beam::SectionLaw;
+use lissom_flexible::beam::line::{BeamLineDescription, beam_line};
 use lissom_mechanics::elements::inertia::Inertia;
 use lissom_mechanics::kinematics::{Freedoms, Kinematics, LOCKED, NodeId};
 use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw};

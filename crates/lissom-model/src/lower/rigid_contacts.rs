@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::rigid_friction::{ContactGuard, Guard};
-use lissom_mechanics::joints::rigid_contact::{RigidContact, RigidLaw};
+use lissom_contact::rigid::{RigidContact, RigidLaw};
+use lissom_contact::rigid_friction::{ContactGuard, Guard};
 use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::{Direction, Event};

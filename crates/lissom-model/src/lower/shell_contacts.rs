@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::contact::compliance::Compliance;
-use lissom_mechanics::contact::pairs::PointOnSurface;
-use lissom_mechanics::contact::solids::Form;
-use lissom_mechanics::contact::surfaces::Rod;
+use lissom_contact::elastic::{Contact, Dissipation};
+use lissom_contact::forms::Form;
+use lissom_contact::geometry::pairs::PointOnSurface;
+use lissom_contact::geometry::surfaces::Rod;
+use lissom_contact::of_shells::{ShellContact, contact_patches};
+use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::Contribution;
-use lissom_mechanics::elements::contact::{Contact, Dissipation};
-use lissom_mechanics::elements::shell::contact::{ShellContact, contact_patches};
 use lissom_mechanics::kinematics::{CarriedFrame, NodeId};
 use lissom_mechanics::number::written;
 use lissom_motion::{Motion, Vector3};

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::shell::pressure::Pressure;
-use lissom_mechanics::elements::shell::section::Ply;
-use lissom_mechanics::elements::shell::surface::{
-    ShellSection, ShellSurface, SurfaceDescription, shell_surface,
-};
+use lissom_flexible::shell::pressure::Pressure;
+use lissom_flexible::shell::section::Ply;
+use lissom_flexible::shell::surface::{ShellSection, ShellSurface, SurfaceDescription, shell_surface};
 use lissom_mechanics::elements::{Attached, Contribution, force};
 use lissom_mechanics::registry::{Function, Parameters, Value};
 use lissom_motion::Vector3;

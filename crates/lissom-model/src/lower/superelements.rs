@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::superelement::{InterfacePlace, SuperelementDescription, superelement};
+use lissom_flexible::superelement::{InterfacePlace, SuperelementDescription, superelement};
 use lissom_mechanics::kinematics::NodeId;
 use lissom_motion::{Motion, Rotation};
 use lissom_system::Builder;

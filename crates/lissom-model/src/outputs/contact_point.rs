@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use lissom_contact::elastic::{Contact, ContactForces};
+use lissom_contact::nearest::NearestContact;
+use lissom_contact::of_beams::BeamContact;
+use lissom_contact::of_shells::ShellContact;
+use lissom_contact::rigid::RigidContact;
 use lissom_mechanics::elements::Element;
-use lissom_mechanics::elements::beam_contact::BeamContact;
-use lissom_mechanics::elements::contact::{Contact, ContactForces};
-use lissom_mechanics::elements::nearest_contact::NearestContact;
-use lissom_mechanics::elements::shell::contact::ShellContact;
-use lissom_mechanics::joints::rigid_contact::RigidContact;
 use lissom_mechanics::kinematics::{DiscreteValueId, Kinematics};
 
 /// Points of contacts by their names.

@@ -2,7 +2,7 @@
 
 use super::touched::Touched;
 use super::{Evaluation, OutputQuantity};
-use lissom_mechanics::contact::set::SmallestGap;
+use lissom_contact::set::SmallestGap;
 use lissom_motion::Vector3;
 use lissom_system::System;
 

@@ -3,7 +3,7 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_mechanics::elements::beam::line::BeamLine;
+use lissom_flexible::beam::line::BeamLine;
 use lissom_mechanics::kinematics::{CarriedFrame, GROUND, NodeId};
 use lissom_mechanics::signals::frame_quantity::{Formula, FrameQuantity, Of};
 use lissom_mechanics::signals::measurement::Measurement;

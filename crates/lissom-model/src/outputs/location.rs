@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::beam::line::BeamProbe;
+use lissom_flexible::beam::line::BeamProbe;
 use lissom_mechanics::elements::shape::lagrange;
 use lissom_mechanics::kinematics::{CarriedFrame, Kinematics, NodeId, NodeMotion};
 use lissom_mechanics::signals::MovingFrame;

@@ -44,8 +44,8 @@ pub(crate) mod work;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_mechanics::elements::beam::line::BeamLine;
-use lissom_mechanics::elements::superelement::Deformation;
+use lissom_flexible::beam::line::BeamLine;
+use lissom_flexible::superelement::Deformation;
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_mechanics::signals::Argument;
 use lissom_mechanics::signals::measurement::{Component, Measurement};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::superelement::Deformation;
+use lissom_flexible::superelement::Deformation;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity, USUAL_UNKNOWNS};
 use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 use lissom_system::OutputDerivatives;

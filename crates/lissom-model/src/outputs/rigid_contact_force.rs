@@ -1,6 +1,6 @@
 //! Gap and force of a rigid contact between two parts.
 
-use lissom_mechanics::joints::rigid_contact::Mode;
+use lissom_contact::rigid::Mode;
 use lissom_mechanics::kinematics::NodeId;
 use lissom_motion::Vector3;
 use lissom_system::System;

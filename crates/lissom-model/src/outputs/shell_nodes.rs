@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::shell::section::Ply;
-use lissom_mechanics::elements::shell::surface::ShellSurface;
+use lissom_flexible::shell::section::Ply;
+use lissom_flexible::shell::surface::ShellSurface;
 
 use crate::reading::mesh_nodes::BuiltNodes;
 use crate::reading::shell_mesh::ShellMesh;

@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::shell::Shell;
-use lissom_mechanics::elements::shell::section::{Ply, von_mises};
+use lissom_flexible::shell::Shell;
+use lissom_flexible::shell::section::{Ply, von_mises};
 use lissom_motion::Vector3;
 use lissom_system::System;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::solid::volume::SolidVolume;
+use lissom_flexible::solid::volume::SolidVolume;
 
 use crate::reading::mesh_nodes::BuiltNodes;
 use crate::reading::solid_mesh::SolidMesh;

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::elements::solid::{CauchyStress, Hexahedron, Tetrahedron, principal, von_mises};
+use lissom_flexible::solid::{CauchyStress, Hexahedron, Tetrahedron, principal, von_mises};
 use lissom_mechanics::kinematics::Kinematics;
 use lissom_system::System;
 

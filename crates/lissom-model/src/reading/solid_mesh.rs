@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use lissom_mechanics::elements::solid::pressure::area_shares;
-use lissom_mechanics::elements::solid::shape::{
+use lissom_flexible::solid::pressure::area_shares;
+use lissom_flexible::solid::shape::{
     HEXAHEDRON_EDGES, HEXAHEDRON_FACES, TETRAHEDRON_EDGES, TETRAHEDRON_FACES,
 };
-use lissom_mechanics::elements::solid::volume::{hexahedron_shares, tetrahedron_shares};
+use lissom_flexible::solid::volume::{hexahedron_shares, tetrahedron_shares};
 use lissom_motion::Vector3;
 
 use super::mesh_nodes::NodeSets;

@@ -1,6 +1,6 @@
 //! Elastic solids as they look.
 
-use lissom_mechanics::elements::solid::law::SolidModel;
+use lissom_flexible::solid::law::SolidModel;
 use lissom_mechanics::kinematics::NodeId;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};

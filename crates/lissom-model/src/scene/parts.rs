@@ -1,6 +1,6 @@
 //! Bodies, point masses and beams as they look.
 
-use lissom_mechanics::contact::solids::{Form, PlacedSolid, Solid};
+use lissom_contact::forms::{Form, PlacedSolid, Solid};
 use lissom_mechanics::kinematics::{GROUND, NodeId};
 use lissom_motion::{Matrix3, Motion, Vector3};
 use serde::{Deserialize, Serialize};

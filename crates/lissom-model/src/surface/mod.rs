@@ -5,8 +5,8 @@ mod stl;
 
 use std::collections::HashMap;
 
-use lissom_mechanics::contact::curves::Curve;
-use lissom_mechanics::contact::solids::{Form, Solid};
+use lissom_contact::forms::{Form, Solid};
+use lissom_contact::geometry::curves::Curve;
 use lissom_motion::{Motion, Vector3};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -265,7 +265,7 @@ fn ears(outline: &[Vector2<f64>]) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lissom_mechanics::contact::surfaces::Polygon;
+    use lissom_contact::geometry::surfaces::Polygon;
     use std::sync::Arc;
 
     /// By the divergence theorem: positive where triangles are seen from outside.

@@ -3,11 +3,9 @@
 use std::sync::Arc;
 
 use super::Builder;
-use lissom_mechanics::contact::gap::Pair;
-use lissom_mechanics::elements::rigid_friction::RigidFriction;
-use lissom_mechanics::joints::rigid_contact::{
-    EQUATIONS, NonPenetration, RigidContact, RigidLaw, RigidState, Sticking,
-};
+use lissom_contact::geometry::gap::Pair;
+use lissom_contact::rigid::{EQUATIONS, NonPenetration, RigidContact, RigidLaw, RigidState, Sticking};
+use lissom_contact::rigid_friction::RigidFriction;
 use lissom_mechanics::kinematics::{CarriedFrame, Quantity};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::Event;

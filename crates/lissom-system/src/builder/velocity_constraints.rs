@@ -1,12 +1,12 @@
 //! Constraints between velocities: rolling and latches, and the element that opposes sliding instead.
 
 use super::Builder;
-use lissom_mechanics::contact::wheel_on_plane::Contact;
 use lissom_mechanics::elements::contribution::Contribution;
 use lissom_mechanics::elements::rolling::RollingCreep;
 use lissom_mechanics::joints::latch::Latch;
 use lissom_mechanics::joints::no_slip::{self, NoSlip};
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Quantity};
+use lissom_mechanics::wheels::wheel_on_plane::Contact;
 
 impl Builder {
     /// Adds what prevents or opposes sliding of a contact, after the joint's own multipliers.

@@ -34,7 +34,7 @@ impl Header {
     pub(super) fn of(lowered: &Lowered) -> Self {
         let layout: &Layout = lowered.system.layout();
         let nodes: Vec<String> = layout.nodes().map(|node| layout.node_name(node).to_owned()).collect();
-        let points = |(beam, line): (&String, &lissom_core::elements::beam::line::BeamLine)| {
+        let points = |(beam, line): (&String, &lissom_core::flexible::beam::line::BeamLine)| {
             let count = line.elements.len();
             let place = |element: usize, xi: f64| (element as f64 + 0.5 * (1.0 + xi)) / count as f64;
             let at = (0..count).flat_map(|element| POINTS.map(|xi| place(element, xi))).collect();

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::start::Lowered;
-use lissom_core::elements::beam::line::BeamProbe;
+use lissom_core::flexible::beam::line::BeamProbe;
 use lissom_core::kinematics::{Kinematics, NodeMotion};
 use lissom_core::simulation::Simulation;
 use lissom_core::system::State;

@@ -10,8 +10,8 @@
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::touch_point::Place;
+use crate::contact::forms::Meeting;
 use crate::contact::set::placed;
-use crate::contact::solids::Meeting;
 use crate::kinematics::{GROUND, Kinematics, NodeId, split};
 
 /// Largest number of gaps on a path.

@@ -7,8 +7,8 @@ use lissom_motion::{Vector3, Vector6};
 
 use super::free_path::{Encounter, FreePath};
 use super::touch_point::{Phase, Place, StepOfPoint, TouchPoint};
+use crate::contact::forms::Meeting;
 use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting};
-use crate::contact::solids::Meeting;
 use crate::kinematics::{GROUND, Kinematics, split};
 use crate::scaling::StageMotion;
 use crate::system::{State, System, Touch, TouchKey};

@@ -27,9 +27,9 @@
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 use nalgebra::Vector2;
 
-use crate::contact::gap::Matrix3x6;
+use crate::contact::forms::Meeting;
+use crate::contact::geometry::gap::Matrix3x6;
 use crate::contact::set::{Impact, TouchLaw, placed};
-use crate::contact::solids::Meeting;
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, split};
 use crate::system::{Touch, TouchKey};
 
@@ -544,9 +544,9 @@ fn carried_bristle(axes: &Matrix3, bristle: &Vector3) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::compliance::Compliance;
+    use crate::compliance::Compliance;
+    use crate::contact::forms::{Form, PlacedSolid, Solid};
     use crate::contact::set::{ContactRule, ContactSet, Coulomb, TouchingPart};
-    use crate::contact::solids::{Form, PlacedSolid, Solid};
     use crate::kinematics::{GROUND, NodeMotion};
 
     /// A ball that touches a plane, with a law.

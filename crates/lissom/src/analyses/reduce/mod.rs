@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use crate::start::{Lowered, lower, lower_locked};
-use lissom_core::elements::superelement::ReducedMatrices;
+use lissom_core::flexible::superelement::ReducedMatrices;
 use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linearized::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
-use lissom_core::elements::superelement::{Damping, ReducedMatrices};
+use lissom_core::flexible::superelement::{Damping, ReducedMatrices};
 use lissom_model::Document;
 use lissom_model::output::full_matrix;
 use lissom_model::toml_text::quoted;

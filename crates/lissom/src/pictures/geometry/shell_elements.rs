@@ -1,8 +1,8 @@
 //! Strains, forces and stresses of a shell at poses of the nodes, by elements like those of the run. Motions hold displacements with
 //! seven digits: so do the strains relative to displacement over the size of an element.
 
-use lissom_core::elements::shell::Shell as Element;
-use lissom_core::elements::shell::section::{DRILLING_SHARE, Matrix8, ShellLaw, von_mises};
+use lissom_core::flexible::shell::Shell as Element;
+use lissom_core::flexible::shell::section::{DRILLING_SHARE, Matrix8, ShellLaw, von_mises};
 use lissom_core::kinematics::{Kinematics, NodeMotion};
 use lissom_model::scene::Shell;
 use lissom_motion::{Motion as Pose, Rotation, Vector3};

@@ -1,7 +1,7 @@
 //! Stresses and energies of an elastic solid at positions of its nodes, by elements like those of the run.
 
-use lissom_core::elements::solid::law::{SolidLaw, SolidModel};
-use lissom_core::elements::solid::{CauchyStress, Hexahedron, Tetrahedron, von_mises};
+use lissom_core::flexible::solid::law::{SolidLaw, SolidModel};
+use lissom_core::flexible::solid::{CauchyStress, Hexahedron, Tetrahedron, von_mises};
 use lissom_core::kinematics::Kinematics;
 use lissom_model::scene::ElasticSolid;
 use lissom_motion::Vector3;

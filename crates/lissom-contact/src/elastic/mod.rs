@@ -1,0 +1,836 @@
+//! Compliant contact of two solids in one point, with friction that sticks.
+//!
+//! Legend: g gap, n normal and p point of contact in the axes of the base's solid, see [`contact::gap`](crate::geometry::gap); (R, x)
+//! tip's frame in the base's, d = Rᵀ(p - x); (v, ω) relative twist in the tip's axes, c = v + ω × d, u = R c velocity of the tip's
+//! point, s = u - n (n·u) sliding velocity; N normal force, z deflection of the bristles in the axes of the base (first-order states),
+//! z_c deflection at which they slip, μ(s) = μ + (μ_s - μ) exp(-(|s|/v_s)²); η variation of the tip's frame.
+//!
+//! ```text
+//! f = N n - N μ(s) ⌊⌊z_t/z_c⌋ + max(0, 1 - |z_t|²/z_c²) d⌋,      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
+//! z' = s - α(|z|/z_c) max(0, s·ẑ) ẑ in contact,  0 without,      ẑ = z/|z|,      α(r) = 0 below r₀, r from 1 on, cubic between
+//! ⌊a⌋ = a/max(1, |a|)
+//! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)
+//! δd = Rᵀδp - η_v + d × η_θ,      δu = R (δc - c × η_θ),      δ(Rᵀf) = Rᵀδf + Rᵀf × η_θ
+//! ```
+//!
+//! Bristles deflect elastically below r₀ z_c, so that a sticking part does not creep, and yield from there to z_c, at which they slip
+//! [Dupont, Armstrong and Hayward 2000; here in two directions]. A step of a given size may overshoot z_c: α above 1 returns them, and the
+//! force remains at its limit. The term with d damps vibrations of a sticking part, and vanishes where bristles slip. Without contact
+//! bristles keep their deflection.
+
+pub mod resistance;
+
+use std::sync::Arc;
+
+use lissom_motion::{
+    Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew, translation_part,
+};
+use nalgebra::SMatrix;
+
+use self::resistance::ContactResistance;
+use crate::force_over_gap::ForceOverGap;
+use crate::geometry::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
+use crate::geometry::hollow::Hollow;
+use lissom_mechanics::compliance::Compliance;
+use lissom_mechanics::elements::force_law::Response;
+use lissom_mechanics::elements::{
+    Capabilities, Contribution, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns,
+    add_block,
+};
+use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
+use lissom_mechanics::joints::frame_pair::{FramePair, RelativeMotion};
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
+use lissom_mechanics::law::VisitLaw;
+use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
+
+/// Rows of the states of the bristles, after two nodes.
+const BRISTLES: usize = 12;
+
+/// r₀: share of the deflection at slip below which bristles are elastic.
+const ELASTIC_SHARE: f64 = 0.8;
+/// Share of the deflection at slip from which bristles are reported to slip.
+const SLIPPING: f64 = 0.95;
+
+/// Dissipation of the normal force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dissipation {
+    /// The factor a [s/m].
+    Factor(f64),
+    /// The factor is A/v with the velocity v at which the contact began, which an event sets.
+    AtTouch {
+        /// A.
+        relative: f64,
+        /// v [m/s].
+        velocity: DiscreteValueId,
+        /// Smallest v [m/s].
+        least: f64,
+    },
+}
+
+/// Dry friction by bristles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactFriction {
+    /// Deflection of the bristles in the axes of the base.
+    pub bristles: Vec<CoordinateId>,
+    /// Coefficient of sliding friction, μ.
+    pub sliding: f64,
+    /// Coefficient of friction at rest, μ_s.
+    pub at_rest: f64,
+    /// Sliding velocity at which the difference has fallen to 1/e, v_s [m/s].
+    pub stribeck: f64,
+    /// Deflection at which the bristles slip, z_c [m].
+    pub deflection: f64,
+}
+
+/// The part of the sliding velocity by which bristles yield, with its derivatives by sliding velocity and deflection.
+#[derive(Default)]
+pub(super) struct Yielding {
+    pub(super) rate: Vector3,
+    pub(super) by_sliding: Matrix3,
+    pub(super) by_bristles: Matrix3,
+}
+
+/// Friction per normal force, with its derivatives by the sliding velocity and by the tangential deflection of the bristles.
+pub(super) struct Share {
+    pub(super) force: Vector3,
+    pub(super) by_sliding: Matrix3,
+    pub(super) by_bristles: Matrix3,
+}
+
+/// States of the bristles of a contact: components of a vector.
+pub(super) const STATES: usize = 3;
+
+impl ContactFriction {
+    /// The same with bristles that are states of the contribution, by this name and a number.
+    pub fn with_bristles(&self, name: &str, contribution: &mut Contribution) -> Self {
+        let state = |k: usize| contribution.add_state(format!("{name} {k}"), 0.0, self.deflection);
+        Self { bristles: (1..=STATES).map(state).collect(), ..*self }
+    }
+
+    pub(super) fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {
+        let length = bristles.norm();
+        let beyond = (length / self.deflection - ELASTIC_SHARE) / (1.0 - ELASTIC_SHARE);
+        if beyond <= 0.0 {
+            return Yielding::default();
+        }
+        let direction = bristles / length;
+        let along = sliding.dot(&direction);
+        if along <= 0.0 {
+            return Yielding::default();
+        }
+        let (share, slope) = if beyond < 1.0 {
+            let slope = 6.0 * beyond * (1.0 - beyond) / ((1.0 - ELASTIC_SHARE) * self.deflection);
+            (beyond * beyond * (3.0 - 2.0 * beyond), slope)
+        } else {
+            (length / self.deflection, 1.0 / self.deflection)
+        };
+        let outer = direction * direction.transpose();
+        let turn = (Matrix3::identity() - outer) / length;
+        Yielding {
+            rate: share * along * direction,
+            by_sliding: share * outer,
+            by_bristles: slope * along * outer
+                + share * (direction * (sliding.transpose() * turn) + along * turn),
+        }
+    }
+
+    /// Whether bristles of this deflection [m] slip.
+    pub(super) fn slips(&self, bristles: &Vector3) -> bool {
+        bristles.norm() > SLIPPING * self.deflection
+    }
+
+    /// Opposed to the sliding of the tip.
+    pub(super) fn share(&self, bristles: &Vector3, sliding: &Vector3, normal: &Vector3) -> Share {
+        let velocity = self.stribeck;
+        let squared = sliding.norm_squared() / (velocity * velocity);
+        let more = (self.at_rest - self.sliding) * (-squared).exp();
+        let coefficient = self.sliding + more;
+        let tangential = bristles - normal * normal.dot(bristles);
+        let relative = tangential / self.deflection;
+        let root = 1.0 / (1.0 + squared).sqrt();
+        let damping = sliding / velocity * root;
+        let (remaining, slope) = match 1.0 - relative.norm_squared() {
+            remaining if remaining > 0.0 => (remaining, 1.0),
+            _ => (0.0, 0.0),
+        };
+        let direction = limited(relative);
+        let total = limited(direction.value + remaining * damping);
+        let damping_by = (Matrix3::identity() - damping * damping.transpose()) * (root / velocity);
+        Share {
+            force: coefficient * total.value,
+            by_sliding: coefficient * remaining * (total.by * damping_by)
+                - total.value * sliding.transpose() * (2.0 * more / (velocity * velocity)),
+            by_bristles: total.by
+                * (direction.by - damping * relative.transpose() * (2.0 * slope))
+                * (coefficient / self.deflection),
+        }
+    }
+}
+
+/// A vector of at most unit length, with its derivative.
+struct Limited {
+    value: Vector3,
+    by: Matrix3,
+}
+
+/// The vector, or its direction if it is longer than one.
+fn limited(vector: Vector3) -> Limited {
+    let length = vector.norm();
+    if length <= 1.0 {
+        return Limited { value: vector, by: Matrix3::identity() };
+    }
+    let unit = vector / length;
+    Limited { value: unit, by: (Matrix3::identity() - unit * unit.transpose()) / length }
+}
+
+/// Two solids that may touch.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    name: String,
+    frames: FramePair,
+    pair: Arc<dyn Pair>,
+    compliance: Compliance,
+    dissipation: Dissipation,
+    friction: Option<ContactFriction>,
+    resistance: Option<ContactResistance>,
+    /// Deflections of the bristles, those of friction first.
+    bristles: Vec<CoordinateId>,
+    switch_states: SwitchStates,
+}
+
+/// Gap, forces on the tip in global axes and sliding velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactForces {
+    /// g [m].
+    pub gap: f64,
+    /// N [N].
+    pub normal: f64,
+    /// Normal force and friction [N].
+    pub force: Vector3,
+    /// Friction [N].
+    pub friction: Vector3,
+    /// |s| [m/s].
+    pub slip: f64,
+    /// Point of contact on the base, global axes [m].
+    pub point: Vector3,
+    /// Whether the solids touch.
+    pub is_touching: bool,
+    /// Whether they touch and bristles slip, or there is no friction.
+    pub is_sliding: bool,
+}
+
+/// Gap and rate of a contact, for events.
+pub struct ContactMotion(Contact);
+
+impl ContactMotion {
+    /// Of this contact.
+    pub fn new(contact: &Contact) -> Self {
+        Self(Contact { friction: None, resistance: None, bristles: Vec::new(), ..contact.clone() })
+    }
+}
+
+impl Measurement for ContactMotion {
+    fn nodes(&self) -> &[NodeId] {
+        &self.0.frames.nodes
+    }
+
+    fn component_count(&self) -> usize {
+        2
+    }
+
+    fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
+        let [gap, rate, _] = self.0.motion(at);
+        [gap, rate, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn value(&self, component: usize, at: &Kinematics) -> f64 {
+        if component == 0 { self.0.gap(at) } else { self.values(at)[component] }
+    }
+
+    fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
+        self.0.spring_gradients(at)[component]
+    }
+}
+
+/// Motion at the point of contact, and the force.
+struct Touch {
+    motion: RelativeMotion,
+    gap: Gap,
+    is_touching: bool,
+    /// d [m].
+    arm: Vector3,
+    /// c, in the tip's axes.
+    carried: Vector3,
+    /// u.
+    velocity: Vector3,
+    /// s.
+    sliding: Vector3,
+    /// N and its derivatives by penetration and its rate.
+    normal_force: [f64; 3],
+    /// z; zero without friction.
+    bristles: Vector3,
+    /// z' as the law determines it.
+    deflecting: Vector3,
+    /// f, on the tip in the base's axes.
+    force: Vector3,
+    /// Against rolling and spinning; zero without.
+    rotation: Rotating,
+}
+
+/// Relative rotation at the point of contact, in the axes of the base.
+#[derive(Default)]
+struct Rotating {
+    /// Angular velocity of the tip relative to the base.
+    spin: Vector3,
+    bristles: Vector3,
+    /// Rate of the bristles as the law determines it.
+    deflecting: Vector3,
+    /// Moment on the tip.
+    moment: Vector3,
+}
+
+impl Touch {
+    fn rate(&self) -> f64 {
+        self.gap.normal.dot(&self.velocity)
+    }
+
+    /// The wrench on the tip's frame.
+    fn wrench(&self) -> Vector6 {
+        let turned = |vector: &Vector3| self.motion.rotation.tr_mul(vector);
+        let force = turned(&self.force);
+        screw(&force, &(self.arm.cross(&force) + turned(&self.rotation.moment)))
+    }
+}
+
+/// Derivatives with respect to η, and with respect to its rate at fixed twists of the nodes.
+struct Variations {
+    normal: Matrix3x6,
+    arm: Matrix3x6,
+    rate: [nalgebra::RowVector6<f64>; 2],
+    sliding: [Matrix3x6; 2],
+}
+
+impl Contact {
+    /// Between the frames of two solids: base and tip.
+    pub fn new(
+        frames: [CarriedFrame; 2],
+        pair: Arc<dyn Pair>,
+        (compliance, dissipation): (Compliance, Dissipation),
+        friction: Option<ContactFriction>,
+    ) -> Self {
+        let frames = FramePair::new(frames);
+        let bristles = friction.as_ref().map_or_else(Vec::new, |friction| friction.bristles.clone());
+        let (resistance, switch_states) = (None, SwitchStates::default());
+        let name = String::new();
+        Self { name, frames, pair, compliance, dissipation, friction, resistance, bristles, switch_states }
+    }
+
+    /// The same with the name that warnings contain.
+    pub fn with_name(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.name);
+        self
+    }
+
+    /// The same with resistance to rolling and spinning.
+    pub fn with_resistance(mut self, resistance: ContactResistance) -> Self {
+        self.bristles.extend(&resistance.bristles.bristles);
+        self.resistance = Some(resistance);
+        self
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Gap [m], its rate [m/s] and the normal force [N].
+    pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
+        let touch = self.touch(at);
+        [touch.gap.value, touch.rate(), touch.normal_force[0]]
+    }
+
+    /// Gap [m].
+    fn gap(&self, at: &Kinematics) -> f64 {
+        let relative = self.frames.relative(at);
+        self.pair.value(&relative.position, &relative.rotation.matrix())
+    }
+
+    /// Whether the solids are apart, as far as it is known without what a contact needs: by their frozen switch, otherwise by the gap
+    /// of a point.
+    #[inline]
+    fn is_apart(&self, at: &Kinematics) -> bool {
+        let frozen = frozen_branch(self.switch_states.of(at).first());
+        frozen.map_or_else(|| self.pair.reach() == 0.0 && self.gap(at) >= 0.0, |is_touching| !is_touching)
+    }
+
+    /// What acts on the tip.
+    pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
+        let touch = self.touch(at);
+        let base = self.frames.base_rotation(at);
+        let normal = touch.normal_force[0];
+        let along = normal * touch.gap.normal;
+        ContactForces {
+            gap: touch.gap.value,
+            normal,
+            force: base * touch.force,
+            friction: base * (touch.force - along),
+            slip: touch.sliding.norm(),
+            point: self.frames.base_frame(at).transform_point(&touch.gap.point),
+            is_touching: touch.is_touching,
+            is_sliding: touch.is_touching
+                && self.friction.as_ref().is_none_or(|friction| friction.slips(&touch.bristles)),
+        }
+    }
+
+    fn dissipation(&self, at: &Kinematics) -> f64 {
+        match self.dissipation {
+            Dissipation::Factor(factor) => factor,
+            Dissipation::AtTouch { relative, velocity, least } => {
+                relative / at.held.get(velocity.index()).map_or(least, |velocity| velocity.max(least))
+            }
+        }
+    }
+
+    fn touch(&self, at: &Kinematics) -> Touch {
+        let motion = self.frames.motion(at);
+        let gap = self.pair.gap(&motion.position, &motion.rotation);
+        let arm = motion.rotation.tr_mul(&(gap.point - motion.position));
+        let carried = translation_part(&motion.twist) + rotation_part(&motion.twist).cross(&arm);
+        let velocity = motion.rotation * carried;
+        let n = gap.normal;
+        let sliding = velocity - n * n.dot(&velocity);
+        let is_touching = is_on_upper_branch(self.switch_states.of(at).first(), -gap.value);
+        let normal_force = if is_touching {
+            self.compliance.force(-gap.value, -n.dot(&velocity), self.dissipation(at))
+        } else {
+            [0.0; 3]
+        };
+        let (mut bristles, mut deflecting) = (Vector3::zeros(), Vector3::zeros());
+        let mut force = normal_force[0] * n;
+        if let Some(friction) = &self.friction {
+            bristles = Vector3::from_fn(|k, _| at.coordinates[friction.bristles[k]].value);
+            if is_touching {
+                deflecting = sliding - friction.yielding(&bristles, &sliding).rate;
+                force -= normal_force[0] * friction.share(&bristles, &sliding, &n).force;
+            }
+        }
+        let rotation = self.rotating(&motion, (&n, is_touching.then_some(normal_force[0])), at);
+        Touch {
+            motion,
+            gap,
+            is_touching,
+            arm,
+            carried,
+            velocity,
+            sliding,
+            normal_force,
+            bristles,
+            deflecting,
+            force,
+            rotation,
+        }
+    }
+
+    fn rotating(
+        &self,
+        motion: &RelativeMotion,
+        (normal, force): (&Vector3, Option<f64>),
+        at: &Kinematics,
+    ) -> Rotating {
+        let Some(resistance) = &self.resistance else { return Rotating::default() };
+        let of = &resistance.bristles;
+        let bristles = Vector3::from_fn(|k, _| at.coordinates[of.bristles[k]].value);
+        let spin = motion.rotation * rotation_part(&motion.twist);
+        let mut rotating = Rotating { spin, bristles, ..Rotating::default() };
+        if let Some(force) = force {
+            rotating.deflecting = spin - of.yielding(&bristles, &spin).rate;
+            rotating.moment = force * resistance.moment(&bristles, &spin, normal).value;
+        }
+        rotating
+    }
+
+    fn variations(touch: &Touch) -> Variations {
+        let Touch { motion, gap, arm, carried, velocity, .. } = touch;
+        let rotation = &motion.rotation;
+        let n = gap.normal;
+        let (normal, point) = (gap.normal_by, gap.point_by);
+        let arm_by = rotation.transpose() * point + side_by_side(&-Matrix3::identity(), &skew(arm));
+        let by_twist = side_by_side(&Matrix3::identity(), &-skew(arm));
+        // At fixed twists of the nodes: δη̇ = -ad(A V_base) η.
+        let bracket = lie_bracket_matrix(&motion.carried);
+        let spin = skew(&rotation_part(&motion.twist));
+        let carried_by = -by_twist * bracket + spin * arm_by;
+        let turned = side_by_side(&Matrix3::zeros(), &skew(carried));
+        let velocity_by = [rotation * (carried_by - turned), rotation * by_twist];
+        let across = Matrix3::identity() - n * n.transpose();
+        let rate = n.dot(velocity);
+        let sliding = [
+            across * velocity_by[0] - rate * normal - n * (velocity.transpose() * normal),
+            across * velocity_by[1],
+        ];
+        let rate_by =
+            [n.transpose() * velocity_by[0] + velocity.transpose() * normal, n.transpose() * velocity_by[1]];
+        Variations { normal, arm: arm_by, rate: rate_by, sliding }
+    }
+
+    /// Energy of the bristles per normal force [m].
+    fn deflected(&self, touch: &Touch) -> f64 {
+        let of_friction = self.friction.as_ref().map_or(0.0, |friction| {
+            0.5 * friction.at_rest / friction.deflection * touch.bristles.norm_squared()
+        });
+        let rotation = &touch.rotation;
+        let resistance = self.resistance.as_ref();
+        of_friction + resistance.map_or(0.0, |resistance| resistance.deflected(&rotation.bristles))
+    }
+
+    /// First row of the bristles against rotation.
+    fn first_rotation(&self) -> usize {
+        BRISTLES + if self.friction.is_some() { 3 } else { 0 }
+    }
+
+    /// Adds the derivatives of the moment against rotation and of the rates of its bristles.
+    fn add_resistance(
+        &self,
+        touch: &Touch,
+        by: &Variations,
+        force_by: &[nalgebra::RowVector6<f64>; 2],
+        out: &mut Tangents,
+    ) {
+        let Some(resistance) = &self.resistance else { return };
+        let (motion, rotating) = (&touch.motion, &touch.rotation);
+        let (n, force) = (&touch.gap.normal, touch.normal_force[0]);
+        let of = resistance.moment(&rotating.bristles, &rotating.spin, n);
+        let yielding = resistance.bristles.yielding(&rotating.bristles, &rotating.spin);
+        let rotation = &motion.rotation;
+        let own = side_by_side(&Matrix3::zeros(), &Matrix3::identity());
+        // At fixed twists of the nodes.
+        let turning = skew(&rotation_part(&motion.twist));
+        let spin_by = [
+            rotation
+                * (-own * lie_bracket_matrix(&motion.carried) - side_by_side(&Matrix3::zeros(), &turning)),
+            rotation * own,
+        ];
+        let mut moment_by = [0, 1].map(|k| of.value * force_by[k] + force * of.by_spin * spin_by[k]);
+        moment_by[0] += force * of.by_normal * by.normal;
+        let local = rotation.tr_mul(&rotating.moment);
+        let mut wrench_by = moment_by.map(|of| rotation.transpose() * of);
+        wrench_by[0] += side_by_side(&Matrix3::zeros(), &skew(&local));
+        let full = |by: &Matrix3x6| {
+            let mut both = Matrix6::zeros();
+            both.fixed_rows_mut::<3>(3).copy_from(by);
+            both
+        };
+        let (size, wrench) = (out.size(), screw(&Vector3::zeros(), &local));
+        self.frames.add_stiffness(motion, (&-wrench, &-full(&wrench_by[0])), (size, &mut out.stiffness));
+        self.frames.add_damping(motion, &-full(&wrench_by[1]), (size, &mut out.damping));
+        let first = self.first_rotation();
+        let by_bristles = rotation.transpose() * of.by_bristles * force;
+        let deflecting_by = Matrix3::identity() - yielding.by_sliding;
+        for (j, columns) in self.frames.columns(motion).iter().enumerate() {
+            let block = -columns.fixed_rows::<3>(3).transpose() * by_bristles;
+            add_block(&mut out.stiffness, size, (6 * j, first), &block);
+            let rows = [-deflecting_by * spin_by[0] * columns, -deflecting_by * spin_by[1] * columns];
+            add_block(&mut out.stiffness, size, (first, 6 * j), &rows[0]);
+            add_block(&mut out.damping, size, (first, 6 * j), &rows[1]);
+        }
+        add_block(&mut out.stiffness, size, (first, first), &yielding.by_bristles);
+    }
+
+    /// Derivatives of the gap with respect to η.
+    fn gap_by(touch: &Touch) -> Vector6 {
+        let normal = touch.motion.rotation.tr_mul(&touch.gap.normal);
+        screw(&normal, &touch.arm.cross(&normal))
+    }
+}
+
+impl Element for Contact {
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.frames.nodes, coordinates: &self.bristles, multipliers: &[] }
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        if self.is_apart(at) {
+            for (force, &bristle) in out[BRISTLES..].iter_mut().zip(&self.bristles) {
+                *force += at.coordinates[bristle].rate;
+            }
+            return;
+        }
+        let touch = self.touch(at);
+        if touch.is_touching {
+            self.frames.add_wrench(&touch.motion, &-touch.wrench(), out);
+        }
+        for (k, &bristle) in self.bristles.iter().enumerate() {
+            let first = self.first_rotation() - BRISTLES;
+            let of = if k < first { touch.deflecting[k] } else { touch.rotation.deflecting[k - first] };
+            out[BRISTLES + k] += at.coordinates[bristle].rate - of;
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let size = out.size();
+        for k in 0..self.bristles.len() {
+            out.damping[(BRISTLES + k) * size + BRISTLES + k] += 1.0;
+        }
+        if self.is_apart(at) {
+            return;
+        }
+        let touch = self.touch(at);
+        if !touch.is_touching {
+            return;
+        }
+        let by = Self::variations(&touch);
+        let (n, [force, by_depth, by_closing]) = (touch.gap.normal, touch.normal_force);
+        let rotation = &touch.motion.rotation;
+        // N by η and η̇.
+        let gap_by = Self::gap_by(&touch);
+        let force_by = [-by_depth * gap_by.transpose() - by_closing * by.rate[0], -by_closing * by.rate[1]];
+        let mut direction = n;
+        let mut force_derivatives = [force * by.normal, Matrix3x6::zeros()];
+        let mut by_bristles = Matrix3::zeros();
+        if let Some(friction) = &self.friction {
+            let share = friction.share(&touch.bristles, &touch.sliding, &n);
+            direction -= share.force;
+            let along = n.dot(&touch.bristles);
+            let turned = along * by.normal + n * (touch.bristles.transpose() * by.normal);
+            force_derivatives[0] += share.by_bristles * turned * force;
+            for (of, sliding_by) in force_derivatives.iter_mut().zip(&by.sliding) {
+                *of -= force * share.by_sliding * sliding_by;
+            }
+            by_bristles = share.by_bristles * (n * n.transpose() - Matrix3::identity()) * force;
+        }
+        for (of, own) in force_derivatives.iter_mut().zip(&force_by) {
+            *of += direction * own;
+        }
+        self.add_resistance(&touch, &by, &force_by, out);
+        // The wrench and its derivatives, on the right-hand side.
+        let local = rotation.tr_mul(&touch.force);
+        let mut wrench_by = force_derivatives.map(|of| rotation.transpose() * of);
+        wrench_by[0] += side_by_side(&Matrix3::zeros(), &skew(&local));
+        let full = |force_by: &Matrix3x6, arm_by: &Matrix3x6| {
+            let mut both = Matrix6::zeros();
+            both.fixed_rows_mut::<3>(0).copy_from(force_by);
+            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.arm) * force_by - skew(&local) * arm_by));
+            both
+        };
+        let [by_place, by_rate] = [full(&wrench_by[0], &by.arm), full(&wrench_by[1], &Matrix3x6::zeros())];
+        let size = out.size();
+        let wrench = screw(&local, &touch.arm.cross(&local));
+        self.frames.add_stiffness(&touch.motion, (&-wrench, &-by_place), (size, &mut out.stiffness));
+        self.frames.add_damping(&touch.motion, &-by_rate, (size, &mut out.damping));
+        let Some(friction) = &self.friction else { return };
+        let columns = self.frames.columns(&touch.motion);
+        let yielding = friction.yielding(&touch.bristles, &touch.sliding);
+        let deflecting_by = Matrix3::identity() - yielding.by_sliding;
+        let wrench_by_bristles = {
+            let local = rotation.transpose() * by_bristles;
+            let mut both = SMatrix::<f64, 6, 3>::zeros();
+            both.fixed_rows_mut::<3>(0).copy_from(&local);
+            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.arm) * local));
+            both
+        };
+        for (j, columns) in columns.iter().enumerate() {
+            let block = -columns.transpose() * wrench_by_bristles;
+            add_block(&mut out.stiffness, size, (6 * j, BRISTLES), &block);
+            let rows = [-deflecting_by * by.sliding[0] * columns, -deflecting_by * by.sliding[1] * columns];
+            add_block(&mut out.stiffness, size, (BRISTLES, 6 * j), &rows[0]);
+            add_block(&mut out.damping, size, (BRISTLES, 6 * j), &rows[1]);
+        }
+        add_block(&mut out.stiffness, size, (BRISTLES, BRISTLES), &yielding.by_bristles);
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        if self.is_apart(at) {
+            return Energy::default();
+        }
+        let touch = self.touch(at);
+        let mut strain = 0.0;
+        if touch.is_touching {
+            let [force, ..] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
+            strain = self.compliance.energy(-touch.gap.value) + force * self.deflected(&touch);
+        }
+        Energy { strain, ..Energy::default() }
+    }
+
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { spring: Some(self), laws: Some(self), strain: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Spring for Contact {
+    fn dissipates(&self) -> bool {
+        self.friction.is_some()
+            || self.resistance.is_some()
+            || match self.dissipation {
+                Dissipation::Factor(factor) => factor > 0.0,
+                Dissipation::AtTouch { relative, .. } => relative > 0.0,
+            }
+    }
+
+    /// Gap, its rate and the normal force.
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
+        self.motion(at)
+    }
+
+    /// Half of the penetration at which the solids are within each other.
+    fn least_elongation(&self) -> Option<f64> {
+        let deepest = self.pair.deepest();
+        deepest.is_finite().then_some(-0.5 * deepest)
+    }
+
+    fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
+        let found = self.pair.hollow(&self.frames.relative(at).position)?;
+        Some((&self.name, found))
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let touch = self.touch(at);
+        let by = Self::variations(&touch);
+        let gap_by = Self::gap_by(&touch);
+        let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
+        for (j, columns) in self.frames.columns(&touch.motion).iter().enumerate() {
+            let slots = 6 * j..6 * j + 6;
+            gap.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&gap_by).as_slice());
+            rate.by_place[slots.clone()].copy_from_slice((by.rate[0] * columns).as_slice());
+            rate.by_rate[slots].copy_from_slice((by.rate[1] * columns).as_slice());
+        }
+        let [force, by_depth, by_closing] = touch.normal_force;
+        Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate])
+    }
+}
+
+impl ForceLaws for Contact {
+    fn switch_count(&self) -> usize {
+        1
+    }
+
+    fn is_idle(&self, at: &Kinematics) -> bool {
+        self.is_apart(at)
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        out.push((-self.gap(at)).into());
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        let relative = self.frames.relative(at);
+        let mut arguments = [0.0; MAX_ARGUMENTS];
+        let (x, rotation) = arguments.split_at_mut(3);
+        x.copy_from_slice(relative.position.as_slice());
+        rotation.copy_from_slice(relative.rotation.matrix().as_slice());
+        let law = ForceOverGap { gap: &*self.pair, compliance: self.compliance };
+        visit(&law, &arguments[..self.pair.arguments()]);
+    }
+}
+
+impl StrainSlopes for Contact {
+    /// Friction is not the derivative of the energy of the bristles.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        let touch = self.touch(fall);
+        if !touch.is_touching {
+            return;
+        }
+        let [force, stiffness, _] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
+        let slope = -(force + stiffness * self.deflected(&touch)) * Self::gap_by(&touch);
+        self.frames.add_wrench(&touch.motion, &slope, out);
+        if let Some(friction) = &self.friction {
+            for (k, bristle) in touch.bristles.iter().enumerate() {
+                out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;
+            }
+        }
+        if let Some(resistance) = &self.resistance {
+            for (k, bristle) in touch.rotation.bristles.iter().enumerate() {
+                out[self.first_rotation() + k] += force * resistance.stiffness() * bristle;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use lissom_motion::Motion;
+
+    use super::*;
+    use lissom_mechanics::kinematics::{GROUND, NodeMotion};
+
+    /// A plane that counts how often a point is compared with it.
+    #[derive(Debug, Default)]
+    struct Counted(AtomicUsize);
+
+    impl Pair for Counted {
+        fn gap(&self, x: &Vector3, _: &Matrix3) -> Gap {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            let (normal, none) = (Vector3::z(), Matrix3x6::zeros());
+            Gap { value: x.z, normal, point: *x, normal_by: none, point_by: none }
+        }
+        fn deepest(&self) -> f64 {
+            f64::INFINITY
+        }
+        fn reach(&self) -> f64 {
+            0.0
+        }
+    }
+
+    /// Many possible contacts cost no more than those that touch.
+    #[test]
+    fn contacts_frozen_apart_are_not_evaluated() {
+        let pair = Arc::new(Counted::default());
+        let frames = [GROUND, NodeId::new(1)].map(CarriedFrame::of_node);
+        let law = (Compliance { stiffness: 1.0, exponent: 1.0 }, Dissipation::Factor(0.0));
+        let mut contact = Contact::new(frames, pair.clone(), law, None);
+        contact.switch_states = SwitchStates::held_at(0, 1);
+        let below = Motion::translation(Vector3::new(0.0, 0.0, -0.1));
+        let mut at = Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes: [Motion::identity(), below].map(NodeMotion::at_rest).to_vec(),
+            coordinates: Vec::new(),
+            held: vec![-1.0],
+            multipliers: Vec::new(),
+        };
+        let evaluate = |at: &Kinematics| {
+            let (mut forces, mut tangents) = ([0.0; BRISTLES], Tangents::new(BRISTLES));
+            contact.forces(at, &mut forces);
+            contact.linearize(at, &mut tangents);
+            let is_zero = forces.iter().chain(&tangents.stiffness).all(|value| *value == 0.0);
+            (is_zero && contact.energy(at) == Energy::default(), contact.is_idle(at))
+        };
+        assert_eq!((evaluate(&at), pair.0.load(Ordering::Relaxed)), ((true, true), 0));
+        at.held[0] = 1.0;
+        assert_eq!(evaluate(&at), (false, false));
+        assert!(pair.0.load(Ordering::Relaxed) > 0);
+    }
+
+    /// Bristles yield between the elastic limit and the deflection at slip, and return to it from beyond.
+    #[test]
+    fn derivatives_of_yielding_are_those_of_differences() {
+        let friction = ContactFriction {
+            bristles: Vec::new(),
+            sliding: 0.4,
+            at_rest: 0.5,
+            stribeck: 0.1,
+            deflection: 2.0,
+        };
+        let sliding = Vector3::new(0.3, -0.2, 0.5);
+        let step = 1e-6;
+        for length in [1.0, 1.7, 1.9, 2.3] {
+            let bristles = length * Vector3::new(0.5, 0.1, 0.6).normalize();
+            let at = friction.yielding(&bristles, &sliding);
+            assert_eq!(at.rate == Vector3::zeros(), length < 1.6, "{length}");
+            for k in 0..3 {
+                let aside = step * Vector3::ith(k, 1.0);
+                let slope =
+                    |of: &dyn Fn(Vector3) -> Yielding| (of(aside).rate - of(-aside).rate) / (2.0 * step);
+                let by_sliding = slope(&|aside| friction.yielding(&bristles, &(sliding + aside)));
+                let by_bristles = slope(&|aside| friction.yielding(&(bristles + aside), &sliding));
+                assert!((by_sliding - at.by_sliding.column(k)).norm() < 1e-8, "{length} {by_sliding}");
+                assert!((by_bristles - at.by_bristles.column(k)).norm() < 1e-8, "{length} {by_bristles}");
+            }
+        }
+        assert_eq!(friction.yielding(&Vector3::new(1.9, 0.0, 0.0), &-sliding).rate, Vector3::zeros());
+    }
+}

@@ -1,0 +1,8 @@
+//! Flexible elements in SI: beams, shells, solids and parts reduced to their modes. Independent of system, scheme and time step.
+//!
+//! This crate opens no file, prints nothing and reads no clock.
+
+pub mod beam;
+pub mod shell;
+pub mod solid;
+pub mod superelement;

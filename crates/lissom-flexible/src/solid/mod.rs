@@ -1,0 +1,204 @@
+//! Solid elements of second order whose nodes have positions only: tetrahedra with ten nodes and hexahedra with twenty. Elastic forces;
+//! their inertia is added by `volume`.
+//!
+//! Legend: x_I position of node I, G_I derivative of its function with respect to the position at rest, w volume of a point of
+//! quadrature, P first Piola-Kirchhoff stress, see `law`.
+//!
+//! ```text
+//! F = Σ x_I G_Iᵀ,      f_I = Σ w P(F) G_I
+//! ```
+//!
+//! Everything refers to the stress-free state: there is no history. Nodes have no rotation, and their axes are global.
+
+mod deformation;
+pub mod law;
+pub mod pressure;
+mod reference;
+pub mod shape;
+mod stage_forces;
+mod stress;
+mod tangent;
+pub mod volume;
+
+use std::sync::Arc;
+
+use lissom_motion::{Matrix3, Vector3};
+
+use self::deformation::Deformation;
+use self::law::{SolidLaw, SolidModel};
+use self::reference::Reference;
+use lissom_mechanics::elements::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns};
+use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
+use lissom_mechanics::kinematics::{Kinematics, NodeId, Stressed};
+
+pub use self::reference::Inverted;
+pub use self::stress::{CauchyStress, principal, von_mises};
+
+/// A solid element. Constants are shared by copies.
+#[derive(Clone, Debug)]
+pub struct Solid<const NODES: usize, const POINTS: usize> {
+    nodes: [NodeId; NODES],
+    reference: Arc<Reference<NODES, POINTS>>,
+    law: SolidLaw,
+}
+
+/// A tetrahedron with ten nodes.
+pub type Tetrahedron = Solid<10, 4>;
+/// A hexahedron with twenty nodes.
+pub type Hexahedron = Solid<20, 21>;
+
+impl Tetrahedron {
+    /// A tetrahedron, stress-free with its nodes at `positions` [m].
+    ///
+    /// # Errors
+    /// If it is inverted somewhere.
+    pub fn new(nodes: [NodeId; 10], positions: &[Vector3; 10], law: SolidLaw) -> Result<Self, Inverted> {
+        let reference = Reference::new(positions, shape::tetrahedron, shape::tetrahedron_points())?;
+        Ok(Self { nodes, reference: reference.into(), law })
+    }
+}
+
+impl Hexahedron {
+    /// A hexahedron, stress-free with its nodes at `positions` [m].
+    ///
+    /// # Errors
+    /// If it is inverted somewhere.
+    pub fn new(nodes: [NodeId; 20], positions: &[Vector3; 20], law: SolidLaw) -> Result<Self, Inverted> {
+        let reference = Reference::new(positions, shape::hexahedron, shape::hexahedron_points())?;
+        Ok(Self { nodes, reference: reference.into(), law })
+    }
+}
+
+/// The deformation at all points of quadrature.
+struct Deformed<const POINTS: usize> {
+    points: [Deformation; POINTS],
+    /// Pressure of the mean dilatation, positive in tension [Pa].
+    mean: f64,
+}
+
+impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
+    /// Its nodes, in the order of Abaqus.
+    pub fn nodes(&self) -> &[NodeId; NODES] {
+        &self.nodes
+    }
+
+    /// Its elastic law.
+    pub fn law(&self) -> &SolidLaw {
+        &self.law
+    }
+
+    /// Positions of its nodes [m].
+    pub fn positions(&self, at: &Kinematics) -> [Vector3; NODES] {
+        self.nodes.map(|node| at.nodes[node].frame.position)
+    }
+
+    /// Displacements relative to that of the first node.
+    fn displacements(&self, positions: &[Vector3; NODES]) -> [Vector3; NODES] {
+        let shift = |i: usize| positions[i] - self.reference.positions[i];
+        let first = shift(0);
+        std::array::from_fn(|i| shift(i) - first)
+    }
+
+    fn deformed(&self, at: &Kinematics) -> Deformed<POINTS> {
+        self.deformed_to(&self.positions(at))
+    }
+
+    fn deformed_to(&self, positions: &[Vector3; NODES]) -> Deformed<POINTS> {
+        let displacements = self.displacements(positions);
+        let points =
+            self.reference.gradients.each_ref().map(|slopes| Deformation::new(&displacements, slopes));
+        let mean = self.law.bulk_of_mean() * self.mean_dilatation(&points);
+        Deformed { points, mean }
+    }
+
+    /// Velocities of the nodes, global axes [m/s].
+    fn velocities_at_nodes(&self, at: &Kinematics) -> [Vector3; NODES] {
+        self.nodes.map(|node| {
+            let own = &at.nodes[node];
+            own.frame.rotation.apply(&own.twist.fixed_rows::<3>(0).into())
+        })
+    }
+
+    /// V/V₀ - 1.
+    fn mean_dilatation(&self, points: &[Deformation; POINTS]) -> f64 {
+        let volumes = self.reference.volumes.iter();
+        points.iter().zip(volumes).map(|(point, volume)| volume * point.dilatation()).sum::<f64>()
+            / self.reference.volume
+    }
+
+    /// Strain energy with its nodes at these positions [J].
+    pub fn strain_energy(&self, positions: &[Vector3; NODES]) -> f64 {
+        let Deformed { points, mean } = self.deformed_to(positions);
+        let volumes = self.reference.volumes.iter();
+        let at_points: f64 = points.iter().zip(volumes).map(|(point, w)| w * self.law.energy(point)).sum();
+        at_points + 0.5 * mean * self.mean_dilatation(&points) * self.reference.volume
+    }
+
+    /// Adds Σ w P G_I.
+    fn add_forces(&self, stresses: impl Iterator<Item = Matrix3>, out: &mut [f64]) {
+        let Reference { gradients, volumes, .. } = &*self.reference;
+        for ((stress, slopes), volume) in stresses.zip(gradients).zip(volumes) {
+            let stress = *volume * stress;
+            for (slope, out) in slopes.iter().zip(out.chunks_exact_mut(6)) {
+                out.iter_mut().zip(&(stress * slope)).for_each(|(sum, value)| *sum += value);
+            }
+        }
+    }
+}
+
+impl<const NODES: usize, const POINTS: usize> Element for Solid<NODES, POINTS> {
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.nodes)
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let Deformed { points, mean } = self.deformed(at);
+        self.add_forces(points.iter().map(|point| self.law.first_stress(point, mean)), out);
+    }
+
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
+        match self.law.model {
+            SolidModel::StVenantKirchhoff => self.add_forces_of_strains(step, out),
+            SolidModel::NeoHookean => self.add_forces_of_energy(step, out),
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        self.linearize_stressed(at, at.into(), out);
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        Energy { strain: self.strain_energy(&self.positions(at)), ..Energy::default() }
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { deformation: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl<const NODES: usize, const POINTS: usize> Deformable for Solid<NODES, POINTS> {
+    fn linearize_stressed(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
+        self.add_tangent(at, stressed, out);
+    }
+
+    fn predicts_stresses(&self) -> bool {
+        self.law.model == SolidModel::StVenantKirchhoff
+    }
+
+    /// The largest strain rate at a point.
+    fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let velocities = self.velocities_at_nodes(at);
+        let rate = |(point, slopes): (&Deformation, &[Vector3; NODES])| {
+            let rate: Matrix3 = velocities.iter().zip(slopes).map(|(v, slope)| v * slope.transpose()).sum();
+            let rate = rate * point.inverse_transpose.transpose();
+            0.5 * (rate + rate.transpose()).norm()
+        };
+        let points = self.deformed(at).points;
+        let rates = points.iter().zip(&self.reference.gradients).map(rate);
+        Some((rates.fold(0.0, f64::max), self.nodes[0]))
+    }
+
+    fn max_relative_rotation(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        None
+    }
+}

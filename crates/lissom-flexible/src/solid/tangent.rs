@@ -1,0 +1,80 @@
+//! Derivatives of a solid element's forces.
+//!
+//! ```text
+//! K_IJ e_k = Σ w δP(e_k ⊗ G_J) G_I  +  (K - K₀)/V₀ v_I (v_J·e_k),      v_I = Σ w J F⁻ᵀ G_I
+//! ```
+//!
+//! The geometric part of St. Venant-Kirchhoff has stresses that are predicted linearly from the iterate before,
+//! S* = S(E + sym Fᵀ ΔF), as in shells [Magisano, Leonetti and Garcea 2017].
+
+use lissom_motion::{Matrix3, Vector3};
+
+use super::deformation::Deformation;
+use super::law::SolidModel;
+use super::stage_forces::strain_change;
+use super::{Deformed, Solid};
+use lissom_mechanics::elements::Tangents;
+use lissom_mechanics::kinematics::{Kinematics, Stressed};
+
+impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
+    pub(super) fn add_tangent(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
+        let Deformed { points, mean } = self.deformed(at);
+        let geometric = self.geometric_stresses(&points, stressed);
+        let size = 6 * NODES;
+        let mut volume_slopes = [Vector3::zeros(); NODES];
+        for (p, point) in points.iter().enumerate() {
+            let (slopes, volume) = (&self.reference.gradients[p], self.reference.volumes[p]);
+            for (sum, slope) in volume_slopes.iter_mut().zip(slopes) {
+                *sum += volume * point.determinant * (point.inverse_transpose * slope);
+            }
+            for (j, slope) in slopes.iter().enumerate() {
+                for k in 0..3 {
+                    let change = volume * self.law.stress_change(point, (&geometric[p], mean), (k, slope));
+                    // The tangent is symmetric: rows from the diagonal block on.
+                    for (i, other) in slopes.iter().enumerate().skip(j) {
+                        let force = change * other;
+                        for row in 0..3 {
+                            out.stiffness[(6 * i + row) * size + 6 * j + k] += force[row];
+                        }
+                    }
+                }
+            }
+        }
+        let factor = self.law.bulk_of_mean() / self.reference.volume;
+        for j in 0..NODES {
+            for i in j..NODES {
+                let block = factor * volume_slopes[i] * volume_slopes[j].transpose();
+                for row in 0..3 {
+                    for k in 0..3 {
+                        out.stiffness[(6 * i + row) * size + 6 * j + k] += block[(row, k)];
+                    }
+                }
+                for row in (0..3).filter(|_| i > j) {
+                    for k in 0..3 {
+                        out.stiffness[(6 * j + k) * size + 6 * i + row] =
+                            out.stiffness[(6 * i + row) * size + 6 * j + k];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Second stresses of the geometric part at all points; zero where the law does not use them.
+    fn geometric_stresses(
+        &self,
+        points: &[Deformation; POINTS],
+        stressed: Stressed<'_>,
+    ) -> [Matrix3; POINTS] {
+        if self.law.model == SolidModel::NeoHookean {
+            return [Matrix3::zeros(); POINTS];
+        }
+        let from = self.deformed(stressed.previous.unwrap_or(stressed.at)).points;
+        std::array::from_fn(|p| {
+            let mut strain = from[p].strain();
+            if stressed.previous.is_some() {
+                strain += strain_change(&from[p].gradient, &(points[p].gradient - from[p].gradient));
+            }
+            self.law.second_stress(&strain)
+        })
+    }
+}
