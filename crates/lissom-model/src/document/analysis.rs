@@ -1,7 +1,7 @@
 //! The analysis that a model file requests, with its settings.
 
 use lissom_mechanics::registry::{Parameter, Parameters};
-use lissom_system::schemes::backward_euler;
+use lissom_system::schemes::{self, ContactSolution};
 use lissom_system::settings::Controlled;
 use lissom_system::solver_features::DisabledFeatures;
 
@@ -58,10 +58,9 @@ pub enum AnalysisKind {
 }
 
 impl Analysis {
-    /// Whether its scheme solves for all touches of a step at once, without elements.
-    pub fn gathers_contacts(&self) -> bool {
-        let is_dynamic = matches!(self.kind, AnalysisKind::Dynamics { .. });
-        is_dynamic && self.scheme.as_ref().is_some_and(|scheme| scheme.value == backward_euler::KIND.name)
+    /// Whether no scheme was written.
+    pub(super) fn has_default_scheme(&self) -> bool {
+        self.scheme.as_ref().is_none_or(|scheme| scheme.span == self.span)
     }
 }
 
@@ -105,6 +104,9 @@ pub(super) const DEFAULT_TOLERANCE: f64 = 1e-8;
 const NEWTON_PART: f64 = 1e-3;
 /// Word of `control` by which tolerances apply to forces, too.
 pub(super) const FORCES: &str = "forces";
+/// Words of `contacts`.
+pub(super) const CONTACTS: &[&str] = &["elements", SET];
+const SET: &str = "set";
 /// Scheme where steps are chosen and none is named, and that for tolerances above the limit: with large errors, the order of more
 /// stages does not pay for them.
 const CONTROLLED_SCHEME: &str = "radau-iia-9";
@@ -135,6 +137,8 @@ pub struct Analysis {
     pub scheme: Option<Located<String>>,
     /// Parameters of the scheme that were given.
     pub parameters: Parameters,
+    /// How contacts of solids are solved.
+    pub contacts: ContactSolution,
     /// First time [s].
     pub start: f64,
     /// Last time [s].
@@ -209,6 +213,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     };
     let parameters =
         if dynamics { scheme_parameters(&reader, scheme.as_ref(), registry) } else { Parameters::new() };
+    let contacts = scheme.as_ref().map_or(ContactSolution::Elements, |scheme| contacts(&reader, scheme));
     let solver = chosen(&reader, "solver", &registry.solvers);
     let of_scheme = scheme.as_ref().and_then(|scheme| {
         registry.schemes.iter().find(|entry| entry.name == scheme.value).and_then(|entry| entry.tolerance)
@@ -223,6 +228,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     let mut analysis = Analysis {
         scheme,
         parameters,
+        contacts,
         scaling,
         equilibrated: reader.flag("equilibrated")?.value,
         augmented: reader.flag("augmented")?.value,
@@ -410,6 +416,28 @@ fn chosen(reader: &Reader<'_, '_>, key: &str, table: &[ChoiceEntry]) -> Option<L
         return reader.choice(key).map(|word| word.map(str::to_owned));
     }
     table.first().map(|entry| Located::new(entry.name.to_owned(), reader.name))
+}
+
+/// How contacts are solved: as written, or as the scheme does by default.
+fn contacts(reader: &Reader<'_, '_>, scheme: &Located<String>) -> ContactSolution {
+    let of_scheme = |name: &str| schemes::kind(name).map_or(ContactSolution::Elements, |kind| kind.contacts);
+    let default = of_scheme(&scheme.value);
+    let chosen = if reader.has("contacts") { reader.choice("contacts") } else { None };
+    match chosen {
+        Some(chosen) if chosen.value == SET => {
+            if default != ContactSolution::Set {
+                let able = schemes::KINDS.iter().filter(|kind| kind.contacts == ContactSolution::Set);
+                let able: Vec<String> = able.map(|kind| format!("`scheme = \"{}\"`", kind.name)).collect();
+                let message =
+                    format!("the scheme `{}` cannot solve for all touches of a step at once", scheme.value);
+                let help = format!("choose {}, or remove `contacts`", able.join(" or "));
+                reader.context.fail::<()>(chosen.span, message, help);
+            }
+            ContactSolution::Set
+        }
+        Some(_) => ContactSolution::Elements,
+        None => default,
+    }
 }
 
 /// The parameters of the chosen scheme; those of others are reported.

@@ -3,7 +3,8 @@
 use lissom_system::solver_features::WORDS;
 
 use super::analysis::{
-    DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, DEFAULT_RELATIVE_TOLERANCE, DEFAULT_TOLERANCE, FORCES,
+    CONTACTS, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, DEFAULT_RELATIVE_TOLERANCE, DEFAULT_TOLERANCE,
+    FORCES,
 };
 use crate::format::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::format::top_level::Variant;
@@ -89,6 +90,13 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
 fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
     let words = registry.schemes.iter().map(|entry| entry.name).collect();
     dynamics.push(optional("scheme", Shape::Choice(words), "", "time integration scheme"));
+    dynamics.push(optional(
+        "contacts",
+        Shape::Choice(CONTACTS.into()),
+        "",
+        "how contacts of shapes are solved: as `elements` with events, or as one `set`, all touches of a step at once; default: that of \
+         the scheme",
+    ));
     dynamics.push(required("end", Shape::Number, "s", "last time"));
     dynamics.extend([
         optional("step", Shape::Positive, "s", "time step; with `relative_tolerance` the first step"),

@@ -42,6 +42,7 @@ use lissom_flexible::superelement::ReducedMatrices;
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
+use lissom_system::schemes::ContactSolution;
 use nalgebra::DMatrix;
 
 use crate::expression::{Expression, Formula};
@@ -174,14 +175,13 @@ impl Document {
         self.initial_of_parts.get(part).or(self.initial.as_ref())
     }
 
-    /// The same with a scheme whose contacts are elements, which linear models need: with the implicit Euler method they are solved with
-    /// the steps.
+    /// The model with contacts as elements, which linear models need.
     pub fn with_contacts_as_elements(&self) -> Cow<'_, Self> {
-        if !self.analysis.gathers_contacts() {
+        if self.analysis.contacts == ContactSolution::Elements {
             return Cow::Borrowed(self);
         }
         let mut changed = self.clone();
-        changed.analysis.scheme = None;
+        changed.analysis.contacts = ContactSolution::Elements;
         Cow::Owned(changed)
     }
 

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::connections::{Places, part_of};
-use super::{Body, Component, Document, NodeReference};
+use super::{AnalysisKind, Body, Component, ContactEntry, ContactLaw, Document, NodeReference};
 use lissom_motion::Vector3;
 
 use crate::outputs::entry::{Output, OutputSource};
@@ -25,14 +25,17 @@ const MAX_EXTENT: (f64, f64) = (200.0, 20.0);
 const JOINT_TO_EXTENT: f64 = 5.0;
 /// Distance of a point of an output from its body beyond the body's radius of gyration, by this factor.
 const POINT_TO_GYRATION: f64 = 5.0;
+/// Moving parts of a contact from which on a scheme for many contacts pays.
+const MANY_PARTS: usize = 8;
 /// Speeds of a drive that are probably in degrees per second.
 const DEGREES: [f64; 8] = [45.0, 90.0, 180.0, 360.0, 720.0, 1080.0, 1800.0, 3600.0];
 
 /// Warns of what is improbable.
 pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
-    let doubts = [units, inertias, joints, degrees, single_nodes, far_sets, balanced, far_points]
-        .into_iter()
-        .flat_map(|find| find(document, places));
+    let doubts =
+        [units, inertias, joints, degrees, single_nodes, far_sets, balanced, far_points, many_contacts]
+            .into_iter()
+            .flat_map(|find| find(document, places));
     for (span, message, help) in doubts {
         context.report(Problem::warning(span, message).help(help));
     }
@@ -91,6 +94,29 @@ fn far_sets(document: &Document, _: &Places) -> Vec<Doubt> {
         })
     };
     document.joints.iter().filter_map(doubt).collect()
+}
+
+/// Contacts in which so many parts may touch each other that following every touch takes long.
+fn many_contacts(document: &Document, _: &Places) -> Vec<Doubt> {
+    let analysis = &document.analysis;
+    if !matches!(analysis.kind, AnalysisKind::Dynamics { .. }) || !analysis.has_default_scheme() {
+        return Vec::new();
+    }
+    let doubt = |entry: &ContactEntry| {
+        let parts = entry.between.iter().chain(&entry.others);
+        let count = parts.filter(|part| part.value != NodeReference::Ground).count();
+        (matches!(entry.law, ContactLaw::Compliant(_)) && count >= MANY_PARTS).then(|| {
+            let message = format!(
+                "{count} moving parts may touch each other in contact `{}`, and by default every touch is followed by events and \
+                 controlled errors, which takes long",
+                entry.name.value
+            );
+            let help = "with `scheme = \"backward-euler\"` and `step = 1e-3` all touches of a step are solved at once: of first order in \
+                        the step; name another scheme to keep this way";
+            (entry.name.span, message, help.to_owned())
+        })
+    };
+    document.contacts.iter().filter_map(doubt).collect()
 }
 
 /// What is doubtful: where, why, and what is probably meant.

@@ -8,6 +8,7 @@ use lissom_mechanics::joints::{self, JointKind};
 use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_mechanics::signals::Argument;
+use lissom_system::schemes::ContactSolution;
 use lissom_system::{Builder, JointAttachment, PlaceOnTip};
 
 use super::contact_set;
@@ -77,7 +78,7 @@ pub(super) fn add(
                 .map(|points| drop(names.contacts.compliant.insert(name, points))),
             ContactLaw::OfShell(law) => super::shell_contacts::add(document, (entry, law), names, builder)
                 .map(|points| drop(names.contacts.compliant.insert(name, points))),
-            ContactLaw::Compliant(law) if document.analysis.gathers_contacts() => {
+            ContactLaw::Compliant(law) if document.analysis.contacts == ContactSolution::Set => {
                 contact_set::add(document, (entry, law), names, builder)
             }
             ContactLaw::Compliant(law) => super::contacts::add(document, (entry, law), names, builder)

@@ -21,18 +21,19 @@ pub(super) fn add(
 ) -> Result<(), Problem> {
     let name = &entry.name.value;
     if law.resistance != [0.0; 2] {
-        let message =
-            format!("contact `{name}`: rolling and torsional friction are not available with backward-euler");
-        return Err(Problem::error(entry.name.span, message).help("remove them, or choose another `scheme`"));
+        let message = format!(
+            "contact `{name}`: rolling and torsional friction are not available with contacts as a set"
+        );
+        return Err(Problem::error(entry.name.span, message)
+            .help("remove them, or write `contacts = \"elements\"` in `[analysis]`"));
     }
     let members: Vec<_> = entry.between.iter().chain(&entry.others).collect();
     let solids: Vec<_> = members.iter().map(|part| solids(document, &part.value)).collect();
     if document.starts_in_equilibrium() {
         let message =
-            format!("contact `{name}`: a start from equilibrium is not available with backward-euler");
-        return Err(
-            Problem::error(entry.name.span, message).help("let the parts settle, or choose another `scheme`")
-        );
+            format!("contact `{name}`: a start from equilibrium is not available with contacts as a set");
+        return Err(Problem::error(entry.name.span, message)
+            .help("let the parts settle, or write `contacts = \"elements\"` in `[analysis]`"));
     }
     let mut known: Vec<[FormKind; 2]> = Vec::new();
     for tip in 1..members.len() {

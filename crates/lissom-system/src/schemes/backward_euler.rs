@@ -7,7 +7,8 @@
 //! Velocities are those in inertial axes: a part that spins in free flight keeps its momentum.
 
 use super::scheme::{
-    Combination, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeKind, Stage, Weights,
+    Combination, ContactSolution, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeKind, Stage,
+    Weights,
 };
 
 /// Registry entry.
@@ -15,6 +16,7 @@ pub const KIND: SchemeKind = SchemeKind {
     name: "backward-euler",
     summary: "Implicit Euler: first order, strongly damping; solves for all contacts of a step at once, for many parts that touch.",
     tolerance: Some(1e-6),
+    contacts: ContactSolution::Set,
     parameters: &[],
     build: |_| Ok(backward_euler()),
 };

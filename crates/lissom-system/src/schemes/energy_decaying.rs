@@ -13,7 +13,7 @@
 //! energy never grows is in `docs/theory/energy-decaying.md`.
 
 use super::collocation::collocation;
-use super::scheme::{Scheme, SchemeError, SchemeKind, Tableau, within};
+use super::scheme::{ContactSolution, Scheme, SchemeError, SchemeKind, Tableau, within};
 use lissom_mechanics::registry::{Parameter, ParameterType};
 
 /// The energy is bounded for the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step
@@ -25,6 +25,7 @@ pub const KIND: SchemeKind = SchemeKind {
     name: "energy-decaying",
     summary: "Energy decaying: third order, energy never increases, damping set by the spectral radius.",
     tolerance: Some(TOLERANCE),
+    contacts: ContactSolution::Elements,
     parameters: &[Parameter::optional(
         "spectral_radius",
         ParameterType::Between(0.0, 1.0),

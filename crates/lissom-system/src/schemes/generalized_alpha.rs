@@ -11,8 +11,8 @@
 //! Equilibrium and constraints hold at the end of the step.
 
 use super::scheme::{
-    Combination, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeError, SchemeKind, Stage, Weights,
-    within,
+    Combination, ContactSolution, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeError, SchemeKind,
+    Stage, Weights, within,
 };
 use lissom_mechanics::registry::{Parameter, ParameterType};
 
@@ -24,6 +24,7 @@ pub const KIND: SchemeKind = SchemeKind {
     name: "generalized-alpha",
     summary: "Generalized-α: second order, numerical damping set by the spectral radius.",
     tolerance: None,
+    contacts: ContactSolution::Elements,
     parameters: &[Parameter::optional(
         "spectral_radius",
         ParameterType::Between(0.0, 1.0),
@@ -39,6 +40,7 @@ pub const HHT_KIND: SchemeKind = SchemeKind {
     name: "hht",
     summary: "HHT-α: second order, numerical damping set by α in -1/3 … 0.",
     tolerance: None,
+    contacts: ContactSolution::Elements,
     parameters: &[Parameter::optional(
         "alpha",
         ParameterType::Between(ALPHAS.0, ALPHAS.1),

@@ -15,8 +15,8 @@ pub mod statics;
 
 pub use dense_polynomial::DensePolynomial;
 pub use scheme::{
-    Combination, Coupling, Decoupled, ErrorEstimate, MAX_STAGES, Parametrization, Scheme, SchemeError,
-    SchemeKind, Stage, StageSystem, Tableau, Weights,
+    Combination, ContactSolution, Coupling, Decoupled, ErrorEstimate, MAX_STAGES, Parametrization, Scheme,
+    SchemeError, SchemeKind, Stage, StageSystem, Tableau, Weights,
 };
 
 /// All schemes for dynamics, one line each; the first is the default with steps of given size.

@@ -12,13 +12,14 @@
 //! Roche 1989]; what is recorded follows from the positions. For even S all eigenvalues of A are complex.
 
 use super::collocation::collocation;
-use super::scheme::{Scheme, SchemeKind};
+use super::scheme::{ContactSolution, Scheme, SchemeKind};
 
 /// Registry entry of two stages.
 pub const KIND: SchemeKind = SchemeKind {
     name: "radau-iia",
     summary: "Two-stage Radau IIA: third order, strongly damping.",
     tolerance: None,
+    contacts: ContactSolution::Elements,
     parameters: &[],
     build: |_| Ok(two_stages()),
 };
@@ -28,6 +29,7 @@ pub const FIFTH_ORDER_KIND: SchemeKind = SchemeKind {
     name: "radau-iia-5",
     summary: "Three-stage Radau IIA: fifth order, strongly damping; for adaptive steps and small errors.",
     tolerance: None,
+    contacts: ContactSolution::Elements,
     parameters: &[],
     build: |_| Ok(three_stages()),
 };
@@ -37,6 +39,7 @@ pub const NINTH_ORDER_KIND: SchemeKind = SchemeKind {
     name: "radau-iia-9",
     summary: "Five-stage Radau IIA: ninth order, strongly damping; for smooth motions with very small errors.",
     tolerance: None,
+    contacts: ContactSolution::Elements,
     parameters: &[],
     build: |_| Ok(five_stages()),
 };
@@ -46,6 +49,7 @@ pub const THIRTEENTH_ORDER_KIND: SchemeKind = SchemeKind {
     name: "radau-iia-13",
     summary: "Seven-stage Radau IIA: thirteenth order, strongly damping; for smooth motions with errors near round-off.",
     tolerance: None,
+    contacts: ContactSolution::Elements,
     parameters: &[],
     build: |_| Ok(seven_stages()),
 };

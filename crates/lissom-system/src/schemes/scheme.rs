@@ -244,6 +244,16 @@ pub struct SchemeError {
     pub highest: f64,
 }
 
+/// How contacts of solids are solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactSolution {
+    /// Each touch is an element: a stiff spring with damper, whose begin and end are events.
+    #[default]
+    Elements,
+    /// All touches of a step are found together with its motion, see [`ContactSet`](lissom_contact::set::ContactSet).
+    Set,
+}
+
 /// A kind of scheme in the model file.
 #[derive(Clone, Copy, Debug)]
 pub struct SchemeKind {
@@ -253,6 +263,8 @@ pub struct SchemeKind {
     pub summary: &'static str,
     /// Default tolerance of Newton's iterations, if the scheme needs its own.
     pub tolerance: Option<f64>,
+    /// How it solves contacts by default. Schemes whose default are elements cannot use sets.
+    pub contacts: ContactSolution,
     /// Its parameter, if it has one, with its default.
     pub parameters: &'static [Parameter],
     /// Builds the scheme of the parameter.

@@ -370,3 +370,40 @@ fn random_scenes_gain_no_energy() {
         assert!(last(&record, "energy.kinetic") < 0.3 * kinetic[0], "{seed}");
     }
 }
+
+/// How contacts are solved is a setting beside the scheme, and contacts of other kinds stand beside a set.
+#[test]
+fn contacts_are_a_set_or_elements_beside_a_rigid_one() {
+    let bodies = ball("lower", 0.1, [0.0, 0.0, 0.1], "")
+        + &ball("upper", 0.1, [0.0, 0.0, 0.3], "")
+        + &ball("rigid", 0.1, [1.0, 0.0, 0.11], "");
+    let rigid = "[contacts.rigid]\nbase = \"ground\"\ntip = \"rigid\"\nrigid = true\n[outputs.rigid_force]\nkind = \"contact_force\"\n\
+                 of = \"rigid\"\n";
+    let contact = format!("tip = \"lower\"\nothers = [\"upper\"]\ndissipation = 1\n{rigid}");
+    let set = on_plane([0.0, -G], &bodies, &contact, [1e-3, 1.0]);
+    let elements = set.replace("kind = \"dynamics\"", "kind = \"dynamics\"\ncontacts = \"elements\"");
+    for (text, is_set) in [(&set, true), (&elements, false)] {
+        assert_eq!(session(text, &[]).simulation().system().contacts().is_empty(), !is_set);
+        let record = run(text, &[]);
+        let lower = last(&record, "lower.z");
+        assert!((lower - (0.1 - 2.0 * G / 1e6)).abs() < 1e-9, "{lower}");
+        assert!((last(&record, "upper.z") - (0.3 - 3.0 * G / 1e6)).abs() < 1e-9);
+        assert!((last(&record, "rigid_force.normal") - G).abs() < 1e-9);
+    }
+    let other = set.replace("backward-euler\"", "hht\"\ncontacts = \"set\"");
+    let found = refused(&other);
+    assert!(found.contains("choose `scheme = \"backward-euler\"`, or remove `contacts`"), "{found}");
+}
+
+/// A model that names no scheme says that one for many contacts exists.
+#[test]
+fn many_parts_without_a_scheme_are_told_of_the_one_for_them() {
+    let warned = |text: &str| {
+        let found = Model::from_text("model.toml", text).document().expect("valid").warnings.render(false);
+        found.contains("all touches of a step are solved at once")
+    };
+    let named = poured(2, "", [1e-3, 0.01]);
+    let unnamed = named.replace("scheme = \"backward-euler\"\n", "");
+    assert!(warned(&unnamed) && !warned(&named));
+    assert!(!warned(&poured(1, "", [1e-3, 0.01]).replace("scheme = \"backward-euler\"\n", "")));
+}

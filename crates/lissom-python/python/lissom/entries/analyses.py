@@ -35,6 +35,7 @@ class Dynamics(Analysis):
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         statistics_window: part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all; a text, or nothing.
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, `"backward-euler"`, or nothing.
+        contacts: how contacts of shapes are solved: as `elements` with events, or as one `set`, all touches of a step at once; default: that of the scheme; `"elements"`, `"set"`, or nothing.
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
         relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion, if `step` is omitted; default 1e-6; a number from 1e-12 to 0.1, or nothing.
@@ -61,6 +62,7 @@ class Dynamics(Analysis):
     frames_per_second: Number | None = None
     statistics_window: str | None = None
     scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "radau-iia-9", "radau-iia-13", "energy-decaying", "backward-euler"] | None = None
+    contacts: Literal["elements", "set"] | None = None
     end: Number
     step: Number | None = None
     relative_tolerance: Number | None = None

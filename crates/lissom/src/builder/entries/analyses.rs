@@ -14,6 +14,8 @@ entry! {
     new(end: f64 = "end")
     /// Time integration scheme.
     scheme: words::Scheme = "scheme";
+    /// How contacts of shapes are solved: as `elements` with events, or as one `set`, all touches of a step at once; default: that of the scheme.
+    contacts: words::Contacts = "contacts";
     /// Time step; with `relative_tolerance` the first step \[s\].
     step: f64 = "step";
     /// Tolerance of the local error of adaptive steps, relative to the motion, if `step` is omitted; default 1e-6.

@@ -27,6 +27,13 @@ words! {
 }
 
 words! {
+    /// One of `elements`, `set`.
+    Contacts;
+    Elements = "elements";
+    Set = "set";
+}
+
+words! {
     /// One of `positions`, `forces`.
     Control;
     Positions = "positions";
