@@ -1,8 +1,6 @@
 //! Rigid contact of two solids in one point: constraints of velocities that are released while the solids are apart.
 //!
-//! Legend: g gap, n normal and p point of contact in the axes of the base's solid, see [`contact::gap`](crate::geometry::gap); (R, x)
-//! tip's frame in the base's, d = Rᵀ(p - x); (v, ω) relative twist in the tip's axes, u = R (v + ω × d) velocity of the tip's
-//! point, s = u - n (n·u) sliding velocity; λ multipliers, N = -λ normal force, f = -λ force on the tip; γ rate of return.
+//! Legend, beside that of a [point](crate::point): λ multipliers, N = -λ normal force, f = -λ force on the tip; γ rate of return.
 //!
 //! ```text
 //! slides or is saturated:   n·u + γ g = 0
@@ -14,16 +12,14 @@
 
 use std::sync::Arc;
 
-use lissom_motion::{
-    Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew, translation_part,
-};
-use nalgebra::{RowVector6, SMatrix};
+use lissom_motion::{Matrix3, Vector3, skew};
+use nalgebra::SMatrix;
 
-use crate::force_over_gap::{ForceOverGap, NOTHING, PENETRATION};
-use crate::geometry::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
+use crate::force_over_gap::{NOTHING, PENETRATION};
+use crate::geometry::gap::{Gap, Matrix3x6, Pair};
+use crate::point::{ContactPoint, PointMotion};
 use lissom_mechanics::joints::constraint::{Constraint, Level, Port};
 use lissom_mechanics::joints::evaluation_point::Increments;
-use lissom_mechanics::joints::frame_pair::{FramePair, RelativeMotion};
 use lissom_mechanics::kinematics::local_derivatives::add_block;
 use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Quantity};
 use lissom_mechanics::law::VisitLaw;
@@ -115,86 +111,7 @@ pub struct RigidContact {
     pub held: RigidState,
     /// The normal multiplier; those of sticking follow, if there is friction.
     pub first_multiplier: usize,
-    frames: FramePair,
-    pair: Arc<dyn Pair>,
-}
-
-/// Motion at the point of contact.
-pub struct Touching {
-    motion: RelativeMotion,
-    /// The gap.
-    pub gap: Gap,
-    /// d [m].
-    arm: Vector3,
-    /// v + ω × d.
-    carried: Vector3,
-    /// u [m/s], base's axes.
-    pub velocity: Vector3,
-}
-
-impl Touching {
-    /// n·u [m/s].
-    pub fn rate(&self) -> f64 {
-        self.gap.normal.dot(&self.velocity)
-    }
-
-    /// s [m/s].
-    pub fn sliding(&self) -> Vector3 {
-        self.velocity - self.gap.normal * self.rate()
-    }
-
-    /// The wrench on the tip's frame of a force on the tip, in the base's axes.
-    fn wrench(&self, force: &Vector3) -> Vector6 {
-        let local = self.motion.rotation.tr_mul(force);
-        screw(&local, &self.arm.cross(&local))
-    }
-
-    /// ∂u/∂η̇.
-    fn velocity_by_twist(&self) -> Matrix3x6 {
-        self.motion.rotation * side_by_side(&Matrix3::identity(), &-skew(&self.arm))
-    }
-
-    /// ∂d/∂η.
-    fn arm_by(&self) -> Matrix3x6 {
-        self.motion.rotation.transpose() * self.gap.point_by
-            + side_by_side(&-Matrix3::identity(), &skew(&self.arm))
-    }
-
-    /// ∂u/∂η at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
-    fn velocity_by_place(&self) -> Matrix3x6 {
-        let by_twist = side_by_side(&Matrix3::identity(), &-skew(&self.arm));
-        let bracket = lie_bracket_matrix(&self.motion.carried);
-        let carried_by = -by_twist * bracket + skew(&rotation_part(&self.motion.twist)) * self.arm_by();
-        let turned = side_by_side(&Matrix3::zeros(), &skew(&self.carried));
-        self.motion.rotation * (carried_by - turned)
-    }
-
-    /// ∂g/∂η.
-    fn gap_by(&self) -> RowVector6<f64> {
-        self.gap.normal.transpose() * self.velocity_by_twist()
-    }
-
-    /// ∂(n·u)/∂η at fixed twists of the nodes.
-    fn rate_by_place(&self) -> RowVector6<f64> {
-        self.gap.normal.transpose() * self.velocity_by_place()
-            + self.velocity.transpose() * self.gap.normal_by
-    }
-
-    /// Derivative of the wrench of a force on the tip with respect to a variation, by that of the force in the base's axes.
-    fn wrench_by(&self, force: &Vector3, force_by: &Matrix3x6, moves: bool) -> Matrix6 {
-        let rotation = &self.motion.rotation;
-        let local = rotation.tr_mul(force);
-        let mut local_by = rotation.transpose() * force_by;
-        let mut arm_by = Matrix3x6::zeros();
-        if moves {
-            local_by += side_by_side(&Matrix3::zeros(), &skew(&local));
-            arm_by = self.arm_by();
-        }
-        let mut both = Matrix6::zeros();
-        both.fixed_rows_mut::<3>(0).copy_from(&local_by);
-        both.fixed_rows_mut::<3>(3).copy_from(&(skew(&self.arm) * local_by - skew(&local) * arm_by));
-        both
-    }
+    point: ContactPoint,
 }
 
 /// A vector of the sliding at a contact, with derivatives with respect to η, and with respect to η̇.
@@ -211,12 +128,12 @@ impl RigidContact {
         (pair, law): (Arc<dyn Pair>, RigidLaw),
         (held, first_multiplier): (RigidState, usize),
     ) -> Self {
-        Self { name, law, held, first_multiplier, frames: FramePair::new(frames), pair }
+        Self { name, law, held, first_multiplier, point: ContactPoint::new(frames, pair) }
     }
 
     /// Nodes of base and tip.
     pub fn nodes(&self) -> &[NodeId; 2] {
-        &self.frames.nodes
+        &self.point.frames.nodes
     }
 
     /// Number of its multipliers.
@@ -255,13 +172,8 @@ impl RigidContact {
     }
 
     /// Gap and motion at the point of contact.
-    pub fn touching(&self, at: &Kinematics) -> Touching {
-        let motion = self.frames.motion(at);
-        let gap = self.pair.gap(&motion.position, &motion.rotation);
-        let arm = motion.rotation.tr_mul(&(gap.point - motion.position));
-        let carried = translation_part(&motion.twist) + rotation_part(&motion.twist).cross(&arm);
-        let velocity = motion.rotation * carried;
-        Touching { motion, gap, arm, carried, velocity }
+    pub fn touching(&self, at: &Kinematics) -> PointMotion {
+        self.point.motion(at)
     }
 
     /// Force on the tip in the base's axes, without friction of sliding, for all multipliers [N].
@@ -293,31 +205,33 @@ impl RigidContact {
 
     /// A vector of the base's axes in global ones.
     pub fn to_global(&self, at: &Kinematics, vector: &Vector3) -> Vector3 {
-        self.frames.base_rotation(at) * vector
+        self.point.frames.base_rotation(at) * vector
     }
 
     /// A point of the base's axes in global ones [m].
     pub fn point_in_space(&self, at: &Kinematics, point: &Vector3) -> Vector3 {
-        self.frames.base_frame(at).transform_point(point)
+        self.point.frames.base_frame(at).transform_point(point)
     }
 
     /// Rows of three velocities of the tip's point, along the orthonormal columns of `axes` in the base's axes, by the unknowns of
     /// both nodes.
-    pub fn rows(&self, touching: &Touching, axes: &Matrix3) -> SMatrix<f64, 3, SIZE> {
+    pub fn rows(&self, touching: &PointMotion, axes: &Matrix3) -> SMatrix<f64, 3, SIZE> {
         let by_twist = axes.transpose() * touching.velocity_by_twist();
         let mut out = SMatrix::<f64, 3, SIZE>::zeros();
-        for (j, columns) in self.frames.columns(&touching.motion).iter().enumerate() {
+        for (j, columns) in self.point.frames.columns(&touching.relative).iter().enumerate() {
             out.fixed_columns_mut::<6>(6 * j).copy_from(&(by_twist * columns));
         }
         out
     }
 
     /// Accelerations along these axes that remain without accelerations of the nodes; the first is the normal [m/s²].
-    pub fn remaining_acceleration(&self, at: &Kinematics, touching: &Touching, axes: &Matrix3) -> Vector3 {
+    pub fn remaining_acceleration(&self, at: &Kinematics, touching: &PointMotion, axes: &Matrix3) -> Vector3 {
         let mut place = axes.transpose() * touching.velocity_by_place();
-        place.set_row(0, &touching.rate_by_place());
+        place.set_row(0, &touching.rate_by(&touching.velocity_by())[0]);
         let mut out = Vector3::zeros();
-        for (columns, node) in self.frames.columns(&touching.motion).iter().zip(self.frames.nodes) {
+        for (columns, node) in
+            self.point.frames.columns(&touching.relative).iter().zip(self.point.frames.nodes)
+        {
             out += place * columns * at.nodes[node].twist;
         }
         out
@@ -330,17 +244,11 @@ impl RigidContact {
     /// ```text
     /// (q a + (s·e) e)/r,      q² = (s·a)² + v₀²,      r² = q² + (s·e)²
     /// ```
-    pub(crate) fn slip_direction(&self, at: &Kinematics, touching: &Touching) -> Varied {
+    pub(crate) fn slip_direction(&self, at: &Kinematics, touching: &PointMotion) -> Varied {
         let n = touching.gap.normal;
         let normal_by = touching.gap.normal_by;
         let sliding = touching.sliding();
-        let velocity_by = [touching.velocity_by_place(), touching.velocity_by_twist()];
-        let across = Matrix3::identity() - n * n.transpose();
-        let rate = touching.rate();
-        let sliding_by = [
-            across * velocity_by[0] - rate * normal_by - n * (touching.velocity.transpose() * normal_by),
-            across * velocity_by[1],
-        ];
+        let sliding_by = touching.sliding_by(&touching.velocity_by());
         let reference = self.direction(at);
         let tangent = reference - n * n.dot(&reference);
         let length = tangent.norm();
@@ -375,30 +283,23 @@ impl RigidContact {
     }
 
     /// Adds the forces of a force on the tip, on the left-hand side, to those on both nodes.
-    pub(crate) fn add_force(&self, touching: &Touching, force: &Vector3, out: &mut [f64]) {
-        self.frames.add_wrench(&touching.motion, &-touching.wrench(force), out);
+    pub(crate) fn add_force(&self, touching: &PointMotion, force: &Vector3, out: &mut [f64]) {
+        self.point.add_force(touching, force, out);
     }
 
     /// Adds their derivatives to local matrices with rows of `size`.
     pub(crate) fn add_derivatives(
         &self,
-        touching: &Touching,
-        (force, by): (&Vector3, &[Matrix3x6; 2]),
-        (size, stiffness, damping): (usize, &mut [f64], &mut [f64]),
+        touching: &PointMotion,
+        by: (&Vector3, &[Matrix3x6; 2]),
+        matrices: (usize, &mut [f64], &mut [f64]),
     ) {
-        let [by_place, by_rate] =
-            [true, false].map(|moves| touching.wrench_by(force, &by[usize::from(!moves)], moves));
-        self.frames.add_stiffness(
-            &touching.motion,
-            (&-touching.wrench(force), &-by_place),
-            (size, stiffness),
-        );
-        self.frames.add_damping(&touching.motion, &-by_rate, (size, damping));
+        self.point.add_derivatives(touching, by, matrices);
     }
 
     /// Rows with respect to η as rows with respect to the unknowns of both nodes.
-    fn add_rows<const N: usize>(&self, touching: &Touching, rows: &SMatrix<f64, N, 6>, out: &mut [f64]) {
-        for (j, columns) in self.frames.columns(&touching.motion).iter().enumerate() {
+    fn add_rows<const N: usize>(&self, touching: &PointMotion, rows: &SMatrix<f64, N, 6>, out: &mut [f64]) {
+        for (j, columns) in self.point.frames.columns(&touching.relative).iter().enumerate() {
             add_block(out, SIZE, (0, 6 * j), &(rows * columns));
         }
     }
@@ -406,15 +307,19 @@ impl RigidContact {
     /// The products of rows with the twists of the nodes.
     fn by_twists(&self, at: &Kinematics, rows: &[f64], out: &mut [f64]) {
         for (value, row) in out.iter_mut().zip(rows.chunks_exact(SIZE)) {
-            let twists = self.frames.nodes.iter().flat_map(|&node| at.nodes[node].twist.iter());
+            let twists = self.point.frames.nodes.iter().flat_map(|&node| at.nodes[node].twist.iter());
             *value = row.iter().zip(twists).map(|(by, rate)| by * rate).sum();
         }
     }
 
     /// Adds the derivatives of Bᵀ λ for a force on the tip and its derivative.
-    fn add_hessian(&self, touching: &Touching, force: &Vector3, force_by: &Matrix3x6, out: &mut [f64]) {
+    fn add_hessian(&self, touching: &PointMotion, force: &Vector3, force_by: &Matrix3x6, out: &mut [f64]) {
         let by_place = touching.wrench_by(force, force_by, true);
-        self.frames.add_stiffness(&touching.motion, (&-touching.wrench(force), &-by_place), (SIZE, out));
+        self.point.frames.add_stiffness(
+            &touching.relative,
+            (&-touching.wrench(force), &-by_place),
+            (SIZE, out),
+        );
     }
 }
 
@@ -452,11 +357,11 @@ impl Constraint for NonPenetration {
     }
 
     fn ports(&self) -> usize {
-        self.0.frames.nodes.len()
+        self.0.point.frames.nodes.len()
     }
 
     fn port(&self, _arrangement: usize, index: usize) -> Port {
-        Port::Node(self.0.frames.nodes[index])
+        Port::Node(self.0.point.frames.nodes[index])
     }
 
     fn violation(&self, _at: &Kinematics, out: &mut [f64]) {
@@ -486,7 +391,7 @@ impl Constraint for NonPenetration {
     fn rate_derivatives(&self, at: &Kinematics, out: &mut [f64]) {
         if !self.is_released(at) {
             let touching = self.0.touching(at);
-            let rows = touching.rate_by_place() + RETURN_RATE * touching.gap_by();
+            let rows = touching.rate_by(&touching.velocity_by())[0] + RETURN_RATE * touching.gap_by();
             self.0.add_rows(&touching, &rows, out);
         }
     }
@@ -511,14 +416,8 @@ impl Constraint for NonPenetration {
 impl NonPenetration {
     /// Passes the penetration as a law while the solids are apart.
     fn penetration(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        let motion = self.0.frames.motion(at);
-        let mut arguments = [0.0; MAX_ARGUMENTS];
-        let (x, rotation) = arguments.split_at_mut(3);
-        x.copy_from_slice(motion.position.as_slice());
-        rotation.copy_from_slice(motion.rotation.as_slice());
         let compliance = if self.0.mode(at) == Mode::Open { PENETRATION } else { NOTHING };
-        let law = ForceOverGap { gap: &*self.0.pair, compliance };
-        visit(&law, &arguments[..law.gap.arguments()]);
+        self.0.point.laws(compliance, at, visit);
     }
 }
 
@@ -548,11 +447,11 @@ impl Constraint for Sticking {
     }
 
     fn ports(&self) -> usize {
-        self.0.frames.nodes.len()
+        self.0.point.frames.nodes.len()
     }
 
     fn port(&self, _arrangement: usize, index: usize) -> Port {
-        Port::Node(self.0.frames.nodes[index])
+        Port::Node(self.0.point.frames.nodes[index])
     }
 
     fn violation(&self, _at: &Kinematics, out: &mut [f64]) {

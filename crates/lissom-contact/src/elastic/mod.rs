@@ -1,16 +1,12 @@
 //! Compliant contact of two solids in one point, with friction that sticks.
 //!
-//! Legend: g gap, n normal and p point of contact in the axes of the base's solid, see [`contact::gap`](crate::geometry::gap); (R, x)
-//! tip's frame in the base's, d = Rᵀ(p - x); (v, ω) relative twist in the tip's axes, c = v + ω × d, u = R c velocity of the tip's
-//! point, s = u - n (n·u) sliding velocity; N normal force, z deflection of the bristles in the axes of the base (first-order states),
-//! z_c deflection at which they slip, μ(s) = μ + (μ_s - μ) exp(-(|s|/v_s)²); η variation of the tip's frame.
+//! Legend, beside that of a [point](crate::point): N normal force, z deflection of the bristles in the axes of the base (first-order
+//! states), z_c deflection at which they slip, μ(s) = μ + (μ_s - μ) exp(-(|s|/v_s)²).
 //!
 //! ```text
 //! f = N n - N μ(s) ⌊⌊z_t/z_c⌋ + max(0, 1 - |z_t|²/z_c²) d⌋,      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
 //! z' = s - α(|z|/z_c) max(0, s·ẑ) ẑ in contact,  0 without,      ẑ = z/|z|,      α(r) = 0 below r₀, r from 1 on, cubic between
 //! ⌊a⌋ = a/max(1, |a|)
-//! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)
-//! δd = Rᵀδp - η_v + d × η_θ,      δu = R (δc - c × η_θ),      δ(Rᵀf) = Rᵀδf + Rᵀf × η_θ
 //! ```
 //!
 //! Bristles deflect elastically below r₀ z_c, so that a sticking part does not creep, and yield from there to z_c, at which they slip
@@ -22,15 +18,13 @@ pub mod resistance;
 
 use std::sync::Arc;
 
-use lissom_motion::{
-    Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew, translation_part,
-};
+use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew};
 use nalgebra::SMatrix;
 
 use self::resistance::ContactResistance;
-use crate::force_over_gap::ForceOverGap;
-use crate::geometry::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
+use crate::geometry::gap::{Matrix3x6, Pair, side_by_side};
 use crate::geometry::hollow::Hollow;
+use crate::point::{ContactPoint, PointMotion};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::force_law::Response;
 use lissom_mechanics::elements::{
@@ -38,7 +32,7 @@ use lissom_mechanics::elements::{
     add_block,
 };
 use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
-use lissom_mechanics::joints::frame_pair::{FramePair, RelativeMotion};
+use lissom_mechanics::joints::frame_pair::RelativeMotion;
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
@@ -187,8 +181,7 @@ fn limited(vector: Vector3) -> Limited {
 #[derive(Clone, Debug)]
 pub struct Contact {
     name: String,
-    frames: FramePair,
-    pair: Arc<dyn Pair>,
+    point: ContactPoint,
     compliance: Compliance,
     dissipation: Dissipation,
     friction: Option<ContactFriction>,
@@ -231,7 +224,7 @@ impl ContactMotion {
 
 impl Measurement for ContactMotion {
     fn nodes(&self) -> &[NodeId] {
-        &self.0.frames.nodes
+        &self.0.point.frames.nodes
     }
 
     fn component_count(&self) -> usize {
@@ -244,7 +237,7 @@ impl Measurement for ContactMotion {
     }
 
     fn value(&self, component: usize, at: &Kinematics) -> f64 {
-        if component == 0 { self.0.gap(at) } else { self.values(at)[component] }
+        if component == 0 { self.0.point.gap(at) } else { self.values(at)[component] }
     }
 
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
@@ -254,15 +247,8 @@ impl Measurement for ContactMotion {
 
 /// Motion at the point of contact, and the force.
 struct Touch {
-    motion: RelativeMotion,
-    gap: Gap,
+    at: PointMotion,
     is_touching: bool,
-    /// d [m].
-    arm: Vector3,
-    /// c, in the tip's axes.
-    carried: Vector3,
-    /// u.
-    velocity: Vector3,
     /// s.
     sliding: Vector3,
     /// N and its derivatives by penetration and its rate.
@@ -290,24 +276,12 @@ struct Rotating {
 }
 
 impl Touch {
-    fn rate(&self) -> f64 {
-        self.gap.normal.dot(&self.velocity)
-    }
-
     /// The wrench on the tip's frame.
     fn wrench(&self) -> Vector6 {
-        let turned = |vector: &Vector3| self.motion.rotation.tr_mul(vector);
+        let turned = |vector: &Vector3| self.at.relative.rotation.tr_mul(vector);
         let force = turned(&self.force);
-        screw(&force, &(self.arm.cross(&force) + turned(&self.rotation.moment)))
+        screw(&force, &(self.at.arm.cross(&force) + turned(&self.rotation.moment)))
     }
-}
-
-/// Derivatives with respect to η, and with respect to its rate at fixed twists of the nodes.
-struct Variations {
-    normal: Matrix3x6,
-    arm: Matrix3x6,
-    rate: [nalgebra::RowVector6<f64>; 2],
-    sliding: [Matrix3x6; 2],
 }
 
 impl Contact {
@@ -318,11 +292,11 @@ impl Contact {
         (compliance, dissipation): (Compliance, Dissipation),
         friction: Option<ContactFriction>,
     ) -> Self {
-        let frames = FramePair::new(frames);
+        let point = ContactPoint::new(frames, pair);
         let bristles = friction.as_ref().map_or_else(Vec::new, |friction| friction.bristles.clone());
         let (resistance, switch_states) = (None, SwitchStates::default());
         let name = String::new();
-        Self { name, frames, pair, compliance, dissipation, friction, resistance, bristles, switch_states }
+        Self { name, point, compliance, dissipation, friction, resistance, bristles, switch_states }
     }
 
     /// The same with the name that warnings contain.
@@ -345,13 +319,7 @@ impl Contact {
     /// Gap [m], its rate [m/s] and the normal force [N].
     pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
         let touch = self.touch(at);
-        [touch.gap.value, touch.rate(), touch.normal_force[0]]
-    }
-
-    /// Gap [m].
-    fn gap(&self, at: &Kinematics) -> f64 {
-        let relative = self.frames.relative(at);
-        self.pair.value(&relative.position, &relative.rotation.matrix())
+        [touch.at.gap.value, touch.at.rate(), touch.normal_force[0]]
     }
 
     /// Whether the solids are apart, as far as it is known without what a contact needs: by their frozen switch, otherwise by the gap
@@ -359,22 +327,25 @@ impl Contact {
     #[inline]
     fn is_apart(&self, at: &Kinematics) -> bool {
         let frozen = frozen_branch(self.switch_states.of(at).first());
-        frozen.map_or_else(|| self.pair.reach() == 0.0 && self.gap(at) >= 0.0, |is_touching| !is_touching)
+        frozen.map_or_else(
+            || self.point.pair.reach() == 0.0 && self.point.gap(at) >= 0.0,
+            |is_touching| !is_touching,
+        )
     }
 
     /// What acts on the tip.
     pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
         let touch = self.touch(at);
-        let base = self.frames.base_rotation(at);
+        let base = self.point.frames.base_rotation(at);
         let normal = touch.normal_force[0];
-        let along = normal * touch.gap.normal;
+        let along = normal * touch.at.gap.normal;
         ContactForces {
-            gap: touch.gap.value,
+            gap: touch.at.gap.value,
             normal,
             force: base * touch.force,
             friction: base * (touch.force - along),
             slip: touch.sliding.norm(),
-            point: self.frames.base_frame(at).transform_point(&touch.gap.point),
+            point: self.point.frames.base_frame(at).transform_point(&touch.at.gap.point),
             is_touching: touch.is_touching,
             is_sliding: touch.is_touching
                 && self.friction.as_ref().is_none_or(|friction| friction.slips(&touch.bristles)),
@@ -391,16 +362,11 @@ impl Contact {
     }
 
     fn touch(&self, at: &Kinematics) -> Touch {
-        let motion = self.frames.motion(at);
-        let gap = self.pair.gap(&motion.position, &motion.rotation);
-        let arm = motion.rotation.tr_mul(&(gap.point - motion.position));
-        let carried = translation_part(&motion.twist) + rotation_part(&motion.twist).cross(&arm);
-        let velocity = motion.rotation * carried;
-        let n = gap.normal;
-        let sliding = velocity - n * n.dot(&velocity);
-        let is_touching = is_on_upper_branch(self.switch_states.of(at).first(), -gap.value);
+        let motion = self.point.motion(at);
+        let (depth, n, sliding) = (-motion.gap.value, motion.gap.normal, motion.sliding());
+        let is_touching = is_on_upper_branch(self.switch_states.of(at).first(), depth);
         let normal_force = if is_touching {
-            self.compliance.force(-gap.value, -n.dot(&velocity), self.dissipation(at))
+            self.compliance.force(depth, -motion.rate(), self.dissipation(at))
         } else {
             [0.0; 3]
         };
@@ -413,21 +379,8 @@ impl Contact {
                 force -= normal_force[0] * friction.share(&bristles, &sliding, &n).force;
             }
         }
-        let rotation = self.rotating(&motion, (&n, is_touching.then_some(normal_force[0])), at);
-        Touch {
-            motion,
-            gap,
-            is_touching,
-            arm,
-            carried,
-            velocity,
-            sliding,
-            normal_force,
-            bristles,
-            deflecting,
-            force,
-            rotation,
-        }
+        let rotation = self.rotating(&motion.relative, (&n, is_touching.then_some(normal_force[0])), at);
+        Touch { at: motion, is_touching, sliding, normal_force, bristles, deflecting, force, rotation }
     }
 
     fn rotating(
@@ -448,30 +401,6 @@ impl Contact {
         rotating
     }
 
-    fn variations(touch: &Touch) -> Variations {
-        let Touch { motion, gap, arm, carried, velocity, .. } = touch;
-        let rotation = &motion.rotation;
-        let n = gap.normal;
-        let (normal, point) = (gap.normal_by, gap.point_by);
-        let arm_by = rotation.transpose() * point + side_by_side(&-Matrix3::identity(), &skew(arm));
-        let by_twist = side_by_side(&Matrix3::identity(), &-skew(arm));
-        // At fixed twists of the nodes: δη̇ = -ad(A V_base) η.
-        let bracket = lie_bracket_matrix(&motion.carried);
-        let spin = skew(&rotation_part(&motion.twist));
-        let carried_by = -by_twist * bracket + spin * arm_by;
-        let turned = side_by_side(&Matrix3::zeros(), &skew(carried));
-        let velocity_by = [rotation * (carried_by - turned), rotation * by_twist];
-        let across = Matrix3::identity() - n * n.transpose();
-        let rate = n.dot(velocity);
-        let sliding = [
-            across * velocity_by[0] - rate * normal - n * (velocity.transpose() * normal),
-            across * velocity_by[1],
-        ];
-        let rate_by =
-            [n.transpose() * velocity_by[0] + velocity.transpose() * normal, n.transpose() * velocity_by[1]];
-        Variations { normal, arm: arm_by, rate: rate_by, sliding }
-    }
-
     /// Energy of the bristles per normal force [m].
     fn deflected(&self, touch: &Touch) -> f64 {
         let of_friction = self.friction.as_ref().map_or(0.0, |friction| {
@@ -488,16 +417,10 @@ impl Contact {
     }
 
     /// Adds the derivatives of the moment against rotation and of the rates of its bristles.
-    fn add_resistance(
-        &self,
-        touch: &Touch,
-        by: &Variations,
-        force_by: &[nalgebra::RowVector6<f64>; 2],
-        out: &mut Tangents,
-    ) {
+    fn add_resistance(&self, touch: &Touch, force_by: &[nalgebra::RowVector6<f64>; 2], out: &mut Tangents) {
         let Some(resistance) = &self.resistance else { return };
-        let (motion, rotating) = (&touch.motion, &touch.rotation);
-        let (n, force) = (&touch.gap.normal, touch.normal_force[0]);
+        let (motion, rotating) = (&touch.at.relative, &touch.rotation);
+        let (n, force) = (&touch.at.gap.normal, touch.normal_force[0]);
         let of = resistance.moment(&rotating.bristles, &rotating.spin, n);
         let yielding = resistance.bristles.yielding(&rotating.bristles, &rotating.spin);
         let rotation = &motion.rotation;
@@ -510,7 +433,7 @@ impl Contact {
             rotation * own,
         ];
         let mut moment_by = [0, 1].map(|k| of.value * force_by[k] + force * of.by_spin * spin_by[k]);
-        moment_by[0] += force * of.by_normal * by.normal;
+        moment_by[0] += force * of.by_normal * touch.at.gap.normal_by;
         let local = rotation.tr_mul(&rotating.moment);
         let mut wrench_by = moment_by.map(|of| rotation.transpose() * of);
         wrench_by[0] += side_by_side(&Matrix3::zeros(), &skew(&local));
@@ -520,12 +443,16 @@ impl Contact {
             both
         };
         let (size, wrench) = (out.size(), screw(&Vector3::zeros(), &local));
-        self.frames.add_stiffness(motion, (&-wrench, &-full(&wrench_by[0])), (size, &mut out.stiffness));
-        self.frames.add_damping(motion, &-full(&wrench_by[1]), (size, &mut out.damping));
+        self.point.frames.add_stiffness(
+            motion,
+            (&-wrench, &-full(&wrench_by[0])),
+            (size, &mut out.stiffness),
+        );
+        self.point.frames.add_damping(motion, &-full(&wrench_by[1]), (size, &mut out.damping));
         let first = self.first_rotation();
         let by_bristles = rotation.transpose() * of.by_bristles * force;
         let deflecting_by = Matrix3::identity() - yielding.by_sliding;
-        for (j, columns) in self.frames.columns(motion).iter().enumerate() {
+        for (j, columns) in self.point.frames.columns(motion).iter().enumerate() {
             let block = -columns.fixed_rows::<3>(3).transpose() * by_bristles;
             add_block(&mut out.stiffness, size, (6 * j, first), &block);
             let rows = [-deflecting_by * spin_by[0] * columns, -deflecting_by * spin_by[1] * columns];
@@ -534,17 +461,11 @@ impl Contact {
         }
         add_block(&mut out.stiffness, size, (first, first), &yielding.by_bristles);
     }
-
-    /// Derivatives of the gap with respect to η.
-    fn gap_by(touch: &Touch) -> Vector6 {
-        let normal = touch.motion.rotation.tr_mul(&touch.gap.normal);
-        screw(&normal, &touch.arm.cross(&normal))
-    }
 }
 
 impl Element for Contact {
     fn unknowns(&self) -> Unknowns<'_> {
-        Unknowns { nodes: &self.frames.nodes, coordinates: &self.bristles, multipliers: &[] }
+        Unknowns { nodes: &self.point.frames.nodes, coordinates: &self.bristles, multipliers: &[] }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -556,7 +477,7 @@ impl Element for Contact {
         }
         let touch = self.touch(at);
         if touch.is_touching {
-            self.frames.add_wrench(&touch.motion, &-touch.wrench(), out);
+            self.point.frames.add_wrench(&touch.at.relative, &-touch.wrench(), out);
         }
         for (k, &bristle) in self.bristles.iter().enumerate() {
             let first = self.first_rotation() - BRISTLES;
@@ -577,22 +498,22 @@ impl Element for Contact {
         if !touch.is_touching {
             return;
         }
-        let by = Self::variations(&touch);
-        let (n, [force, by_depth, by_closing]) = (touch.gap.normal, touch.normal_force);
-        let rotation = &touch.motion.rotation;
+        let (n, normal_by) = (touch.at.gap.normal, touch.at.gap.normal_by);
+        let [force, by_depth, by_closing] = touch.normal_force;
+        let velocity_by = touch.at.velocity_by();
+        let (rate_by, sliding_by) = (touch.at.rate_by(&velocity_by), touch.at.sliding_by(&velocity_by));
         // N by η and η̇.
-        let gap_by = Self::gap_by(&touch);
-        let force_by = [-by_depth * gap_by.transpose() - by_closing * by.rate[0], -by_closing * by.rate[1]];
+        let force_by = [-by_depth * touch.at.gap_by() - by_closing * rate_by[0], -by_closing * rate_by[1]];
         let mut direction = n;
-        let mut force_derivatives = [force * by.normal, Matrix3x6::zeros()];
+        let mut force_derivatives = [force * normal_by, Matrix3x6::zeros()];
         let mut by_bristles = Matrix3::zeros();
         if let Some(friction) = &self.friction {
             let share = friction.share(&touch.bristles, &touch.sliding, &n);
             direction -= share.force;
             let along = n.dot(&touch.bristles);
-            let turned = along * by.normal + n * (touch.bristles.transpose() * by.normal);
+            let turned = along * normal_by + n * (touch.bristles.transpose() * normal_by);
             force_derivatives[0] += share.by_bristles * turned * force;
-            for (of, sliding_by) in force_derivatives.iter_mut().zip(&by.sliding) {
+            for (of, sliding_by) in force_derivatives.iter_mut().zip(&sliding_by) {
                 *of -= force * share.by_sliding * sliding_by;
             }
             by_bristles = share.by_bristles * (n * n.transpose() - Matrix3::identity()) * force;
@@ -600,37 +521,25 @@ impl Element for Contact {
         for (of, own) in force_derivatives.iter_mut().zip(&force_by) {
             *of += direction * own;
         }
-        self.add_resistance(&touch, &by, &force_by, out);
-        // The wrench and its derivatives, on the right-hand side.
-        let local = rotation.tr_mul(&touch.force);
-        let mut wrench_by = force_derivatives.map(|of| rotation.transpose() * of);
-        wrench_by[0] += side_by_side(&Matrix3::zeros(), &skew(&local));
-        let full = |force_by: &Matrix3x6, arm_by: &Matrix3x6| {
-            let mut both = Matrix6::zeros();
-            both.fixed_rows_mut::<3>(0).copy_from(force_by);
-            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.arm) * force_by - skew(&local) * arm_by));
-            both
-        };
-        let [by_place, by_rate] = [full(&wrench_by[0], &by.arm), full(&wrench_by[1], &Matrix3x6::zeros())];
+        self.add_resistance(&touch, &force_by, out);
         let size = out.size();
-        let wrench = screw(&local, &touch.arm.cross(&local));
-        self.frames.add_stiffness(&touch.motion, (&-wrench, &-by_place), (size, &mut out.stiffness));
-        self.frames.add_damping(&touch.motion, &-by_rate, (size, &mut out.damping));
+        let matrices = (size, &mut out.stiffness[..], &mut out.damping[..]);
+        self.point.add_derivatives(&touch.at, (&touch.force, &force_derivatives), matrices);
         let Some(friction) = &self.friction else { return };
-        let columns = self.frames.columns(&touch.motion);
+        let columns = self.point.frames.columns(&touch.at.relative);
         let yielding = friction.yielding(&touch.bristles, &touch.sliding);
         let deflecting_by = Matrix3::identity() - yielding.by_sliding;
         let wrench_by_bristles = {
-            let local = rotation.transpose() * by_bristles;
+            let local = touch.at.relative.rotation.transpose() * by_bristles;
             let mut both = SMatrix::<f64, 6, 3>::zeros();
             both.fixed_rows_mut::<3>(0).copy_from(&local);
-            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.arm) * local));
+            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.at.arm) * local));
             both
         };
         for (j, columns) in columns.iter().enumerate() {
             let block = -columns.transpose() * wrench_by_bristles;
             add_block(&mut out.stiffness, size, (6 * j, BRISTLES), &block);
-            let rows = [-deflecting_by * by.sliding[0] * columns, -deflecting_by * by.sliding[1] * columns];
+            let rows = [-deflecting_by * sliding_by[0] * columns, -deflecting_by * sliding_by[1] * columns];
             add_block(&mut out.stiffness, size, (BRISTLES, 6 * j), &rows[0]);
             add_block(&mut out.damping, size, (BRISTLES, 6 * j), &rows[1]);
         }
@@ -644,8 +553,8 @@ impl Element for Contact {
         let touch = self.touch(at);
         let mut strain = 0.0;
         if touch.is_touching {
-            let [force, ..] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
-            strain = self.compliance.energy(-touch.gap.value) + force * self.deflected(&touch);
+            let [force, ..] = self.compliance.force(-touch.at.gap.value, 0.0, 0.0);
+            strain = self.compliance.energy(-touch.at.gap.value) + force * self.deflected(&touch);
         }
         Energy { strain, ..Energy::default() }
     }
@@ -676,25 +585,25 @@ impl Spring for Contact {
 
     /// Half of the penetration at which the solids are within each other.
     fn least_elongation(&self) -> Option<f64> {
-        let deepest = self.pair.deepest();
+        let deepest = self.point.pair.deepest();
         deepest.is_finite().then_some(-0.5 * deepest)
     }
 
     fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
-        let found = self.pair.hollow(&self.frames.relative(at).position)?;
+        let found = self.point.pair.hollow(&self.point.frames.relative(at).position)?;
         Some((&self.name, found))
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
         let touch = self.touch(at);
-        let by = Self::variations(&touch);
-        let gap_by = Self::gap_by(&touch);
+        let gap_by = touch.at.gap_by().transpose();
+        let rate_by = touch.at.rate_by(&touch.at.velocity_by());
         let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
-        for (j, columns) in self.frames.columns(&touch.motion).iter().enumerate() {
+        for (j, columns) in self.point.frames.columns(&touch.at.relative).iter().enumerate() {
             let slots = 6 * j..6 * j + 6;
             gap.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&gap_by).as_slice());
-            rate.by_place[slots.clone()].copy_from_slice((by.rate[0] * columns).as_slice());
-            rate.by_rate[slots].copy_from_slice((by.rate[1] * columns).as_slice());
+            rate.by_place[slots.clone()].copy_from_slice((rate_by[0] * columns).as_slice());
+            rate.by_rate[slots].copy_from_slice((rate_by[1] * columns).as_slice());
         }
         let [force, by_depth, by_closing] = touch.normal_force;
         Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate])
@@ -711,17 +620,11 @@ impl ForceLaws for Contact {
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        out.push((-self.gap(at)).into());
+        out.push((-self.point.gap(at)).into());
     }
 
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        let relative = self.frames.relative(at);
-        let mut arguments = [0.0; MAX_ARGUMENTS];
-        let (x, rotation) = arguments.split_at_mut(3);
-        x.copy_from_slice(relative.position.as_slice());
-        rotation.copy_from_slice(relative.rotation.matrix().as_slice());
-        let law = ForceOverGap { gap: &*self.pair, compliance: self.compliance };
-        visit(&law, &arguments[..self.pair.arguments()]);
+        self.point.laws(self.compliance, at, visit);
     }
 }
 
@@ -732,9 +635,9 @@ impl StrainSlopes for Contact {
         if !touch.is_touching {
             return;
         }
-        let [force, stiffness, _] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
-        let slope = -(force + stiffness * self.deflected(&touch)) * Self::gap_by(&touch);
-        self.frames.add_wrench(&touch.motion, &slope, out);
+        let [force, stiffness, _] = self.compliance.force(-touch.at.gap.value, 0.0, 0.0);
+        let slope = -(force + stiffness * self.deflected(&touch)) * touch.at.gap_by().transpose();
+        self.point.frames.add_wrench(&touch.at.relative, &slope, out);
         if let Some(friction) = &self.friction {
             for (k, bristle) in touch.bristles.iter().enumerate() {
                 out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;

@@ -20,7 +20,8 @@ use super::Simulation;
 use super::contact_problem::{Condition, ContactProblem};
 use super::held_values::settle;
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
-use crate::contact::rigid::{Mode, RigidContact, Touching};
+use crate::contact::point::PointMotion;
+use crate::contact::rigid::{Mode, RigidContact};
 use crate::errors::{InitialError, StepError, Warning, warn};
 use crate::integrator::dense::at_share;
 use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
@@ -49,7 +50,7 @@ const BISECTIONS: usize = 50;
 struct Candidate<'s> {
     index: usize,
     contact: &'s RigidContact,
-    touching: Touching,
+    touching: PointMotion,
     /// Normal and two tangents.
     axes: Matrix3<f64>,
     /// Velocities along them [m/s].
