@@ -15,9 +15,10 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Vector6};
 use nalgebra::{Matrix3x6, Matrix6x3, SMatrix};
 
-use crate::elastic::{Contact, ContactForces, ContactFriction, Dissipation, STATES};
+use crate::elastic::{Contact, ContactFriction, Dissipation, STATES};
 use crate::geometry::gap::Pair;
 use crate::geometry::hollow::Hollow;
+use crate::reading::{ContactElement, ContactReading};
 use lissom_flexible::beam::section::{Section, SectionMotion};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::{
@@ -99,16 +100,6 @@ impl BeamContact {
     pub fn with_name(mut self, name: &str) -> Self {
         self.contact = self.contact.with_name(name);
         self
-    }
-
-    /// What acts on the beam.
-    pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        self.between(at, |contact, scratch, _| contact.forces_at(&scratch.at))
-    }
-
-    /// Gap [m], its rate [m/s] and the normal force [N].
-    pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        self.between(at, |contact, scratch, _| contact.motion(&scratch.at))
     }
 
     /// Evaluates the contact between base and section as two nodes.
@@ -263,13 +254,19 @@ impl Element for BeamContact {
     }
 }
 
+impl ContactElement for BeamContact {
+    fn reading(&self, at: &Kinematics) -> ContactReading {
+        self.between(at, |contact, scratch, _| contact.reading(&scratch.at))
+    }
+}
+
 impl Spring for BeamContact {
     fn dissipates(&self) -> bool {
         self.contact.dissipates()
     }
 
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
-        self.motion(at)
+        self.between(at, |contact, scratch, _| contact.spring_motion(&scratch.at))
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {

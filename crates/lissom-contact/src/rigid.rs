@@ -18,6 +18,7 @@ use nalgebra::SMatrix;
 use crate::force_over_gap::{NOTHING, PENETRATION};
 use crate::geometry::gap::{Gap, Matrix3x6, Pair};
 use crate::point::{ContactPoint, PointMotion};
+use crate::reading::ContactReading;
 use lissom_mechanics::joints::constraint::{Constraint, Level, Port};
 use lissom_mechanics::joints::evaluation_point::Increments;
 use lissom_mechanics::kinematics::local_derivatives::add_block;
@@ -188,14 +189,17 @@ impl RigidContact {
 
     /// Normal force and friction on the tip in the base's axes, for all multipliers [N].
     pub fn forces(&self, at: &Kinematics, multipliers: &[f64]) -> (f64, Vector3) {
-        let touching = self.touching(at);
+        self.forces_of(&self.touching(at), at, multipliers)
+    }
+
+    fn forces_of(&self, touching: &PointMotion, at: &Kinematics, multipliers: &[f64]) -> (f64, Vector3) {
         let n = touching.gap.normal;
         let mode = self.mode(at);
         let force = self.constraint_force(mode, &n, multipliers);
         let normal = n.dot(&force);
         let friction = match mode {
             Mode::Sliding | Mode::Saturated if self.has_friction() => {
-                -self.law.friction * normal * self.slip_direction(at, &touching).value
+                -self.law.friction * normal * self.slip_direction(at, touching).value
             }
             Mode::Sticking => force - normal * n,
             _ => Vector3::zeros(),
@@ -203,14 +207,22 @@ impl RigidContact {
         (normal, friction)
     }
 
-    /// A vector of the base's axes in global ones.
-    pub fn to_global(&self, at: &Kinematics, vector: &Vector3) -> Vector3 {
-        self.point.frames.base_rotation(at) * vector
-    }
-
-    /// A point of the base's axes in global ones [m].
-    pub fn point_in_space(&self, at: &Kinematics, point: &Vector3) -> Vector3 {
-        self.point.frames.base_frame(at).transform_point(point)
+    /// What it reports, for all multipliers.
+    pub fn reading(&self, at: &Kinematics, multipliers: &[f64]) -> ContactReading {
+        let touching = self.touching(at);
+        let (normal, friction) = self.forces_of(&touching, at, multipliers);
+        let (base, axes) = (self.point.frames.base_frame(at), self.point.frames.base_rotation(at));
+        let mode = self.mode(at);
+        ContactReading {
+            gap: touching.gap.value,
+            normal,
+            force: axes * (normal * touching.gap.normal + friction),
+            friction: axes * friction,
+            slip: touching.sliding().norm(),
+            point: base.transform_point(&touching.gap.point),
+            is_touching: mode != Mode::Open,
+            is_sliding: mode == Mode::Sliding,
+        }
     }
 
     /// Rows of three velocities of the tip's point, along the orthonormal columns of `axes` in the base's axes, by the unknowns of

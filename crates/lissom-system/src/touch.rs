@@ -1,6 +1,6 @@
 //! A touch of two parts at the end of a step: what the next step continues, and what outputs report.
 
-use lissom_motion::Vector3;
+use lissom_contact::reading::ContactReading;
 use serde::{Deserialize, Serialize};
 
 /// Which parts touch, and at which of their points.
@@ -57,18 +57,17 @@ pub struct Touch {
 }
 
 impl Touch {
-    /// Force on the second part [N].
-    pub fn force(&self) -> Vector3 {
-        Vector3::from(self.force)
-    }
-
-    /// Friction on the second part [N].
-    pub fn friction(&self) -> Vector3 {
-        Vector3::from(self.friction)
-    }
-
-    /// Point of contact [m].
-    pub fn point(&self) -> Vector3 {
-        Vector3::from(self.point)
+    /// What it reports.
+    pub fn reading(&self) -> ContactReading {
+        ContactReading {
+            gap: self.gap,
+            normal: self.normal,
+            force: self.force.into(),
+            friction: self.friction.into(),
+            slip: self.slip,
+            point: self.point.into(),
+            is_touching: true,
+            is_sliding: self.is_sliding,
+        }
     }
 }

@@ -25,6 +25,7 @@ use self::resistance::ContactResistance;
 use crate::geometry::gap::{Matrix3x6, Pair, side_by_side};
 use crate::geometry::hollow::Hollow;
 use crate::point::{ContactPoint, PointMotion};
+use crate::reading::{ContactElement, ContactReading};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::force_law::Response;
 use lissom_mechanics::elements::{
@@ -191,27 +192,6 @@ pub struct Contact {
     switch_states: SwitchStates,
 }
 
-/// Gap, forces on the tip in global axes and sliding velocity.
-#[derive(Clone, Copy, Debug)]
-pub struct ContactForces {
-    /// g [m].
-    pub gap: f64,
-    /// N [N].
-    pub normal: f64,
-    /// Normal force and friction [N].
-    pub force: Vector3,
-    /// Friction [N].
-    pub friction: Vector3,
-    /// |s| [m/s].
-    pub slip: f64,
-    /// Point of contact on the base, global axes [m].
-    pub point: Vector3,
-    /// Whether the solids touch.
-    pub is_touching: bool,
-    /// Whether they touch and bristles slip, or there is no friction.
-    pub is_sliding: bool,
-}
-
 /// Gap and rate of a contact, for events.
 pub struct ContactMotion(Contact);
 
@@ -232,7 +212,7 @@ impl Measurement for ContactMotion {
     }
 
     fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
-        let [gap, rate, _] = self.0.motion(at);
+        let [gap, rate, _] = self.0.spring_motion(at);
         [gap, rate, 0.0, 0.0, 0.0, 0.0]
     }
 
@@ -316,12 +296,6 @@ impl Contact {
         &self.name
     }
 
-    /// Gap [m], its rate [m/s] and the normal force [N].
-    pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        let touch = self.touch(at);
-        [touch.at.gap.value, touch.at.rate(), touch.normal_force[0]]
-    }
-
     /// Whether the solids are apart, as far as it is known without what a contact needs: by their frozen switch, otherwise by the gap
     /// of a point.
     #[inline]
@@ -331,25 +305,6 @@ impl Contact {
             || self.point.pair.reach() == 0.0 && self.point.gap(at) >= 0.0,
             |is_touching| !is_touching,
         )
-    }
-
-    /// What acts on the tip.
-    pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        let touch = self.touch(at);
-        let base = self.point.frames.base_rotation(at);
-        let normal = touch.normal_force[0];
-        let along = normal * touch.at.gap.normal;
-        ContactForces {
-            gap: touch.at.gap.value,
-            normal,
-            force: base * touch.force,
-            friction: base * (touch.force - along),
-            slip: touch.sliding.norm(),
-            point: self.point.frames.base_frame(at).transform_point(&touch.at.gap.point),
-            is_touching: touch.is_touching,
-            is_sliding: touch.is_touching
-                && self.friction.as_ref().is_none_or(|friction| friction.slips(&touch.bristles)),
-        }
     }
 
     fn dissipation(&self, at: &Kinematics) -> f64 {
@@ -568,6 +523,26 @@ impl Element for Contact {
     }
 }
 
+impl ContactElement for Contact {
+    fn reading(&self, at: &Kinematics) -> ContactReading {
+        let touch = self.touch(at);
+        let base = self.point.frames.base_rotation(at);
+        let normal = touch.normal_force[0];
+        let along = normal * touch.at.gap.normal;
+        ContactReading {
+            gap: touch.at.gap.value,
+            normal,
+            force: base * touch.force,
+            friction: base * (touch.force - along),
+            slip: touch.sliding.norm(),
+            point: self.point.frames.base_frame(at).transform_point(&touch.at.gap.point),
+            is_touching: touch.is_touching,
+            is_sliding: touch.is_touching
+                && self.friction.as_ref().is_none_or(|friction| friction.slips(&touch.bristles)),
+        }
+    }
+}
+
 impl Spring for Contact {
     fn dissipates(&self) -> bool {
         self.friction.is_some()
@@ -580,7 +555,8 @@ impl Spring for Contact {
 
     /// Gap, its rate and the normal force.
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
-        self.motion(at)
+        let touch = self.touch(at);
+        [touch.at.gap.value, touch.at.rate(), touch.normal_force[0]]
     }
 
     /// Half of the penetration at which the solids are within each other.
@@ -658,6 +634,7 @@ mod tests {
     use lissom_motion::Motion;
 
     use super::*;
+    use crate::geometry::gap::Gap;
     use lissom_mechanics::kinematics::{GROUND, NodeMotion};
 
     /// A plane that counts how often a point is compared with it.

@@ -19,9 +19,9 @@ use lissom_motion::{Matrix3, Vector3, rotation_part, skew, translation_part};
 use nalgebra::Matrix3x6;
 
 use super::least_distance::PARALLEL;
-use crate::elastic::ContactForces;
 use crate::force_over_gap::{Distance, ForceOverGap};
 use crate::geometry::gap::side_by_side;
+use crate::reading::{ContactElement, ContactReading};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::{
     Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns, add_block,
@@ -183,28 +183,6 @@ impl NearestContact {
         }
     }
 
-    /// What acts on the tip.
-    pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        let touch = self.touch(at);
-        let normal = touch.share[0] * touch.force[0];
-        ContactForces {
-            gap: touch.distance - self.radius,
-            normal,
-            force: normal * touch.normal,
-            friction: Vector3::zeros(),
-            slip: (touch.velocity - touch.rate * touch.normal).norm(),
-            point: touch.base + self.base_radius * touch.normal,
-            is_touching: touch.is_touching && touch.share[0] > 0.5,
-            is_sliding: touch.is_touching && touch.share[0] > 0.5,
-        }
-    }
-
-    /// Gap [m], its rate [m/s] and the normal force [N].
-    pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        let touch = self.touch(at);
-        [touch.distance - self.radius, touch.rate, touch.share[0] * touch.force[0]]
-    }
-
     /// Derivatives of a point by the variation of its node: R [I, -c̃].
     fn carried(at: &Kinematics, (node, point): &CarriedPoint) -> Matrix3x6<f64> {
         let rotation = at.nodes[*node].frame.rotation.matrix();
@@ -324,13 +302,31 @@ impl Element for NearestContact {
     }
 }
 
+impl ContactElement for NearestContact {
+    fn reading(&self, at: &Kinematics) -> ContactReading {
+        let touch = self.touch(at);
+        let normal = touch.share[0] * touch.force[0];
+        ContactReading {
+            gap: touch.distance - self.radius,
+            normal,
+            force: normal * touch.normal,
+            friction: Vector3::zeros(),
+            slip: (touch.velocity - touch.rate * touch.normal).norm(),
+            point: touch.base + self.base_radius * touch.normal,
+            is_touching: touch.is_touching && touch.share[0] > 0.5,
+            is_sliding: touch.is_touching && touch.share[0] > 0.5,
+        }
+    }
+}
+
 impl Spring for NearestContact {
     fn dissipates(&self) -> bool {
         self.dissipation > 0.0
     }
 
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
-        self.motion(at)
+        let touch = self.touch(at);
+        [touch.distance - self.radius, touch.rate, touch.share[0] * touch.force[0]]
     }
 
     /// Not available: it depends on more nodes than a gradient has places, and no output asks for it.

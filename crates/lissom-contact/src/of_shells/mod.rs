@@ -18,8 +18,9 @@ pub use patches::{ContactPatch, contact_patches};
 
 use lissom_motion::{Matrix3, Vector3};
 
-use crate::elastic::{ContactForces, ContactFriction, STATES};
+use crate::elastic::{ContactFriction, STATES};
 use crate::force_over_gap::{Distance, ForceOverGap};
+use crate::reading::{ContactElement, ContactReading};
 use lissom_flexible::shell::quadrilateral::NODES;
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::dual::{Dual, Number, Three, cross, dot, sum, times};
@@ -327,38 +328,6 @@ impl ShellContact {
         is_touching.then_some(foot)
     }
 
-    /// What acts on the shell.
-    pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        let foot = self.foot(at);
-        let (moved, touch) = self.touch(at, &foot);
-        let is_touching = self.is_touching(at, &touch);
-        let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
-        let [arm, sliding] = self.sliding(&moved, &touch);
-        let friction = self.friction.as_ref().map_or_else(Vector3::zeros, |friction| {
-            normal * Vector3::from(Self::friction_share(friction, &moved, (sliding, &touch)))
-        });
-        let is_own = is_touching && touch.is_own;
-        ContactForces {
-            gap: -self.depth(&touch),
-            normal,
-            force: friction - normal * Vector3::from(touch.outwards),
-            friction,
-            slip: Vector3::from(sliding).norm(),
-            point: Vector3::from(sum(moved.centre, arm)),
-            is_touching: is_own,
-            is_sliding: is_own && self.friction.as_ref().is_none_or(|own| own.slips(&moved.bristle.into())),
-        }
-    }
-
-    /// Gap [m], its rate [m/s] and the normal force [N].
-    pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        let foot = self.foot(at);
-        let (moved, touch) = self.touch(at, &foot);
-        let is_touching = self.is_touching(at, &touch);
-        let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
-        [-self.depth(&touch), moved.rate(&touch), normal]
-    }
-
     /// Energy of the bristles per normal force, and its derivative by them [m, -].
     fn deflected(&self, bristle: &Vector3) -> (f64, Vector3) {
         self.friction.as_ref().map_or((0.0, Vector3::zeros()), |friction| {
@@ -422,13 +391,41 @@ impl Element for ShellContact {
     }
 }
 
+impl ContactElement for ShellContact {
+    fn reading(&self, at: &Kinematics) -> ContactReading {
+        let foot = self.foot(at);
+        let (moved, touch) = self.touch(at, &foot);
+        let is_touching = self.is_touching(at, &touch);
+        let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
+        let [arm, sliding] = self.sliding(&moved, &touch);
+        let friction = self.friction.as_ref().map_or_else(Vector3::zeros, |friction| {
+            normal * Vector3::from(Self::friction_share(friction, &moved, (sliding, &touch)))
+        });
+        let is_own = is_touching && touch.is_own;
+        ContactReading {
+            gap: -self.depth(&touch),
+            normal,
+            force: friction - normal * Vector3::from(touch.outwards),
+            friction,
+            slip: Vector3::from(sliding).norm(),
+            point: Vector3::from(sum(moved.centre, arm)),
+            is_touching: is_own,
+            is_sliding: is_own && self.friction.as_ref().is_none_or(|own| own.slips(&moved.bristle.into())),
+        }
+    }
+}
+
 impl Spring for ShellContact {
     fn dissipates(&self) -> bool {
         self.dissipation > 0.0 || self.friction.is_some()
     }
 
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
-        self.motion(at)
+        let foot = self.foot(at);
+        let (moved, touch) = self.touch(at, &foot);
+        let is_touching = self.is_touching(at, &touch);
+        let normal = if is_touching { touch.share * self.normal_force(&moved, &touch) } else { 0.0 };
+        [-self.depth(&touch), moved.rate(&touch), normal]
     }
 
     /// Not available: it depends on more nodes than a gradient has places, and no output asks for it.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use lissom_core::compliance::Compliance;
 use lissom_core::contact::nearest::{CarriedCurve, CarriedPoint, NearestContact};
+use lissom_core::contact::reading::ContactElement;
 use lissom_core::elements::{Contribution, Element};
 use lissom_core::joints::centerline::Centerline;
 use lissom_core::kinematics::{Freedoms, GROUND};
@@ -127,7 +128,7 @@ fn intervals_hand_a_contact_over() {
         let [on_line, tangent] = [0, 1].map(|order| line.at(s).sum(order, place));
         let beside = tangent.cross(&Vector3::z()).normalize();
         at.nodes[ball].frame.position = on_line + 0.9 * RADIUS * beside;
-        let force: Vector3 = intervals.iter().map(|own| own.forces_at(&at).force).sum();
+        let force: Vector3 = intervals.iter().map(|own| own.reading(&at).force).sum();
         let wanted = -10.0 * 0.1 * RADIUS * beside;
         assert!((force - wanted).norm() < 1e-3, "{s}: {force} {wanted}");
     }

@@ -25,7 +25,7 @@ use crate::text::report::{Located, Problem};
 pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut Kinematics) {
     for point in points {
         let Some(held) = point.velocity else { continue };
-        let [gap, rate, _] = point.contact.motion(at);
+        let [gap, rate, _] = point.contact.spring_motion(at);
         if gap <= 0.0 {
             at.held[held.index()] = -rate;
         }
@@ -67,7 +67,7 @@ impl Names {
         names.peek()?;
         let mut found = FrictionPoints::default();
         for point in names.filter_map(|name| self.contacts.compliant.get(name)).flatten() {
-            let forces = point.contact.forces_at(at);
+            let forces = point.contact.reading(at);
             found.sliding += usize::from(forces.is_touching && forces.is_sliding);
             found.sticking += usize::from(forces.is_touching && !forces.is_sliding);
         }

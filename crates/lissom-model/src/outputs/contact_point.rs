@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_contact::elastic::{Contact, ContactForces};
-use lissom_contact::nearest::NearestContact;
-use lissom_contact::of_beams::BeamContact;
-use lissom_contact::of_shells::ShellContact;
+use lissom_contact::reading::ContactElement;
 use lissom_contact::rigid::RigidContact;
-use lissom_mechanics::elements::Element;
-use lissom_mechanics::kinematics::{DiscreteValueId, Kinematics};
+use lissom_contact::set::SmallestGap;
+use lissom_mechanics::kinematics::DiscreteValueId;
+use lissom_system::System;
 
 /// Points of contacts by their names.
 #[derive(Clone, Default)]
@@ -18,55 +16,6 @@ pub(crate) struct PointsOfContacts {
     pub(crate) compliant: BTreeMap<String, Vec<ContactPoint>>,
     /// Of rigid ones.
     pub(crate) rigid: BTreeMap<String, Vec<RigidPoint>>,
-}
-
-/// An element of a contact.
-pub(crate) trait ContactElement: Element {
-    /// What acts on its tip.
-    fn forces_at(&self, at: &Kinematics) -> ContactForces;
-
-    /// Gap [m], its rate [m/s] and the normal force [N].
-    fn motion(&self, at: &Kinematics) -> [f64; 3];
-}
-
-impl ContactElement for Contact {
-    fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        Self::forces_at(self, at)
-    }
-
-    fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        Self::motion(self, at)
-    }
-}
-
-impl ContactElement for BeamContact {
-    fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        Self::forces_at(self, at)
-    }
-
-    fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        Self::motion(self, at)
-    }
-}
-
-impl ContactElement for NearestContact {
-    fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        Self::forces_at(self, at)
-    }
-
-    fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        Self::motion(self, at)
-    }
-}
-
-impl ContactElement for ShellContact {
-    fn forces_at(&self, at: &Kinematics) -> ContactForces {
-        Self::forces_at(self, at)
-    }
-
-    fn motion(&self, at: &Kinematics) -> [f64; 3] {
-        Self::motion(self, at)
-    }
 }
 
 /// One point of a contact.
@@ -87,4 +36,19 @@ pub(crate) struct RigidPoint {
     pub(crate) contact: Arc<RigidContact>,
     /// 1 if its tip is that of the entry, otherwise -1.
     pub(crate) sign: f64,
+}
+
+/// The points of a contact whose touches have no elements.
+pub(crate) struct PointsOfSet {
+    /// Index of the contact.
+    pub(crate) rule: usize,
+    /// The gap while nothing touches.
+    pub(crate) gap: SmallestGap,
+}
+
+impl PointsOfSet {
+    /// Of the contact of this index.
+    pub(crate) fn new(system: &System, rule: usize) -> Self {
+        Self { rule, gap: SmallestGap::new(system.contacts(), rule) }
+    }
 }
