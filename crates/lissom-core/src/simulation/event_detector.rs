@@ -13,6 +13,10 @@
 //! the end crosses zero, if the step started at a clearly nonzero value. The next step could detect it only after its first
 //! millionth.
 //!
+//! Corners that meet a plane together cross zero at one instant, up to round-off. Functions that would cross within the first millionth
+//! of the step after a root cross at that root: with the branches of a few corners the motion beyond it would be a rotation. Their values
+//! have no sign up to what remained to zero, until they are beyond it.
+//!
 //! Between two steps each function has a branch, the sign 1 or -1. Functions and forces are continued from their branch over the whole
 //! step, so that it is smooth; results beyond the root are not used. At the root the branch changes regardless of round-off, so that
 //! the same root is not found again.
@@ -52,6 +56,8 @@ pub(crate) struct EventState {
     before: Vec<f64>,
     /// Largest magnitude so far.
     largest: Vec<f64>,
+    /// Magnitude before zero of functions whose branch changed so shortly before their root, until they are beyond it.
+    remaining: Vec<f64>,
     /// Events that happened.
     pub(crate) occurrences: Vec<Occurrence>,
     /// The event that ends the run at the state, if one does.
@@ -164,6 +170,7 @@ impl EventDetector {
         detector.known.sides = vec![0.0; detector.values.len()];
         detector.known.before = vec![0.0; detector.values.len()];
         detector.known.largest = vec![0.0; detector.values.len()];
+        detector.known.remaining = vec![0.0; detector.values.len()];
         detector.known.recent.0 = start.kinematics.time;
         detector.note(0..0, &[]);
         detector
@@ -222,27 +229,40 @@ impl EventDetector {
             if is_free && value.number.abs() > NOISE * known.largest[k] {
                 known.sides[k] = value.side();
             }
+            if known.sides[k].signum() * value.number > 0.0 {
+                known.remaining[k] = 0.0;
+            }
         }
+    }
+
+    /// Magnitude up to which value `k` has no sign.
+    fn noise(&self, k: usize) -> f64 {
+        self.known.remaining[k].max(NOISE * self.known.largest[k])
     }
 
     /// Whether value `k` has crossed zero in a monitored direction.
     fn has_passed(&self, events: &[Event], k: usize) -> bool {
         let (value, side) = (self.values[k].number, self.known.sides[k]);
-        let is_clear = value.abs() > NOISE * self.known.largest[k];
-        is_clear
+        value.abs() > self.noise(k)
             && side != 0.0
             && (value > 0.0) != (side > 0.0)
             && events.get(k).is_none_or(|event| event.direction.allows(value > 0.0))
     }
 
-    /// Changes the branch of value `k` to that beyond its zero.
-    fn cross(&mut self, k: usize) {
+    /// Changes the branch of value `k` to that beyond its zero, at a state where its value is `number`.
+    fn cross(&mut self, k: usize, number: f64) {
         let side = self.known.sides[k];
+        self.known.remaining[k] = (side.signum() * number).max(0.0);
         self.known.before[k] = std::mem::replace(&mut self.known.sides[k], self.values[k].beyond(side));
     }
 
     fn any_has_passed(&self, events: &[Event]) -> bool {
         (0..self.values.len()).any(|k| self.has_passed(events, k))
+    }
+
+    /// Indices of the values that have crossed zero.
+    fn passed(&self, events: &[Event]) -> Vec<usize> {
+        (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect()
     }
 
     /// Evaluates all functions at a step fraction.
@@ -295,12 +315,17 @@ impl EventDetector {
                 if self.any_has_passed(events) { after = middle } else { before = middle }
             }
             self.near_at(system, step, after);
-            let indices: Vec<usize> =
-                (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
+            let mut indices = self.passed(events);
             let are_switches = indices.iter().all(|k| *k >= events.len());
             let share = match after {
                 // The step begins at the switch: a step of zero length is not needed.
-                after if after < round_off::STEP_END && are_switches => 0.0,
+                after if after < round_off::STEP_END && are_switches => {
+                    self.near_at(system, step, round_off::STEP_END);
+                    indices.extend(self.passed(events).into_iter().filter(|k| *k >= events.len()));
+                    indices.sort_unstable();
+                    indices.dedup();
+                    0.0
+                }
                 after if after > 1.0 - round_off::ROOT => 1.0,
                 after => after.max(round_off::STEP_END),
             };
@@ -387,11 +412,37 @@ impl EventDetector {
     /// motion slides along the switching surface.
     pub(crate) fn switch_at_start(&mut self, indices: &[usize]) -> bool {
         for &k in indices {
-            self.cross(k);
+            self.cross(k, self.samples[0][k].number);
         }
         self.known.has_switched = true;
         self.switched_at_start += 1;
         self.switched_at_start <= MAX_SWITCHES_AT_START
+    }
+
+    /// Adds the functions that cross zero within the first millionth of the next step, as those of corners that meet a plane together:
+    /// with the branches of a few of them the motion beyond the root would be another one. `step` must end at the root.
+    pub(crate) fn join_simultaneous(
+        &mut self,
+        system: &System,
+        step: DenseOutput<'_>,
+        located: &mut LocatedRoot,
+    ) {
+        let events = system.signals().events();
+        self.at(system, step, 1.0 + round_off::SLOPE_OFFSET);
+        let beyond = self.values.clone();
+        self.at(system, step, 1.0);
+        let ahead = round_off::STEP_END * located.whole / (round_off::SLOPE_OFFSET * located.size);
+        for k in 0..self.values.len() {
+            let side = self.known.sides[k].signum();
+            let [start, end, beyond] =
+                [self.samples[0][k], self.values[k], beyond[k]].map(|value| side * value.number);
+            let is_allowed = events.get(k).is_none_or(|event| event.direction.allows(side < 0.0));
+            // A function that only touches zero has no root.
+            let is_crossing = start > self.noise(k) && beyond < 0.0 && end <= ahead * (end - beyond);
+            if is_allowed && is_crossing && !located.indices.contains(&k) {
+                located.indices.push(k);
+            }
+        }
     }
 
     /// Whether the step that was solved to end at the root does so. If not, `located` is updated.
@@ -417,7 +468,9 @@ impl EventDetector {
         self.near_at(system, step, 1.0);
         let value = self.values[first].number;
         let change = -value * 1e-3 * located.size / (value - earlier);
-        let is_there = change.abs() <= round_off::ROOT * located.whole || change.is_nan();
+        // Below its noise the value of a slow function does not decrease further.
+        let is_lost = value.abs() <= self.noise(first) && value.abs() > SLOW_REFINEMENT * located.remaining;
+        let is_there = is_lost || change.abs() <= round_off::ROOT * located.whole || change.is_nan();
         if is_there || located.refinements > MAX_REFINEMENTS {
             return true;
         }
@@ -479,7 +532,7 @@ impl EventDetector {
         let mut has_progressed = false;
         for &k in indices {
             let before = self.known.before[k];
-            self.cross(k);
+            self.cross(k, self.values[k].number);
             has_progressed |= self.values[k].levels.is_some() && self.known.sides[k] != before;
         }
         let known = &mut self.known;

@@ -78,6 +78,9 @@ impl Simulation {
                 break;
             }
         }
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let step = self.integrator.dense(problem, (&self.state, &self.attempt.end));
+        self.events.join_simultaneous(&self.system, step, &mut located);
         Ok(Verdict::Accept(Some(located)))
     }
 

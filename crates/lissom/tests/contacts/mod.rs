@@ -9,4 +9,5 @@ mod planned_steps;
 mod rigid;
 mod rolling;
 mod shapes;
+mod stacks;
 mod wheelset;
