@@ -120,12 +120,14 @@ diagnostics! {
             size: f64,
             /// Name of the unknown with the largest estimated error.
             unknown: Subject,
+            /// What to try.
+            hint: &'static str,
         } => "tolerance-not-met" {
             time: *time,
             subject: unknown,
             cause: ("from t = {time} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most in \
                     the {unknown}"),
-            remedy: "check for a load or drive that jumps there, or increase the tolerance",
+            remedy: "{hint}",
             meaning: "The estimated error exceeds `relative_tolerance` with the shortest steps, as at a discontinuous load or drive.",
             advice: "Look for a load or drive that jumps at that time, or allow a larger error.",
         }
@@ -155,12 +157,14 @@ diagnostics! {
             time: f64,
             /// What switches.
             what: Subject,
+            /// What to try.
+            hint: &'static str,
         } => "chattering" {
             time: *time,
             subject: what,
             cause: ("at t = {time} s {what} switches a thousand times within one step: the motion slides along the surface where it \
                     switches"),
-            remedy: "smooth it (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a suitable kind, such as friction",
+            remedy: "{hint}",
             meaning: "A signal, an event or a force switches a thousand times within one step: the motion slides along the surface where it \
                 switches.",
             advice: "Give the switch a width or a hysteresis, or use a kind such as friction.",
@@ -405,6 +409,16 @@ impl StepError {
         )
     }
 }
+
+/// What to try when the estimated error stays above the tolerance.
+pub(crate) const MORE_TOLERANT: &str =
+    "check for a load or drive that jumps there, or increase the tolerance";
+/// What to try when something switches without end.
+pub(crate) const SMOOTHER: &str = "smooth it (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a suitable kind, such \
+     as friction";
+/// What to try when a step fails while parts touch at several points.
+pub(crate) const FOR_MANY_TOUCHES: &str = "parts touch at several points: try `scheme = \"backward-euler\"` with a `step`, which solves \
+     for all touches at once";
 
 /// What to try when numbers of one attempt are not finite.
 pub(crate) const SMALLER: &str = "try a smaller step";

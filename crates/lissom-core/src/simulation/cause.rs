@@ -1,7 +1,7 @@
 //! Likely cause of a failed step, from the present state.
 
 use crate::errors::StepError;
-use crate::errors::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE};
+use crate::errors::step_error::{FOR_MANY_TOUCHES, NO_PART_CONVERGES, NO_PART_IS_FINITE};
 use crate::judge::{MAX_TURN, degenerate_joint};
 use crate::kinematics::{LOCKED, NodeId, Quantity, Subject};
 use crate::settings::Problem;
@@ -75,14 +75,26 @@ impl Simulation {
             return StepError::Switches { time, what };
         }
         match error {
-            StepError::NotConverged { time, iterations, correction, worst, .. } if no_part => {
-                StepError::NotConverged { time, iterations, correction, worst, hint: NO_PART_CONVERGES }
+            StepError::NotConverged { time, iterations, correction, worst, hint } => {
+                let hint = self.hint(if no_part { NO_PART_CONVERGES } else { hint });
+                StepError::NotConverged { time, iterations, correction, worst, hint }
             }
             StepError::NotFinite { time, iterations, worst, .. } if no_part => {
                 StepError::NotFinite { time, iterations, worst, hint: NO_PART_IS_FINITE }
             }
             other => other,
         }
+    }
+
+    /// What to try when a step fails: another scheme if parts touch at several points, otherwise the `usual`.
+    pub(crate) fn hint(&self, usual: &'static str) -> &'static str {
+        let (at, first) = (&self.state.kinematics, self.system.signals().first_side());
+        // Contacts are idle on the lower branches of their switches.
+        let mut apart = at.clone();
+        apart.held[first..].fill(-1.0);
+        let laws = self.system.elements_with(|own| own.laws);
+        let mut touching = laws.filter(|own| own.is_idle(&apart) && !own.is_idle(at));
+        if touching.nth(1).is_some() { FOR_MANY_TOUCHES } else { usual }
     }
 
     /// The switch whose branch changes between the state and the last iterate, if any. Steps of planned size do not iterate branches.

@@ -1,6 +1,7 @@
 //! Steps that end at events and at switches of forces.
 
 use super::event_detector::LocatedRoot;
+use crate::errors::step_error::SMOOTHER;
 use crate::errors::{MAX_LISTED, StepError, Warning, warn};
 use crate::kinematics::Subject;
 use crate::settings::{Problem, StepReport, Stopwatch};
@@ -215,6 +216,6 @@ impl Simulation {
             || self.system.name_of_switch(which - events.len()),
             |event| Subject::new("event", &event.name),
         );
-        StepError::Chatters { time: self.state.kinematics.time, what }
+        StepError::Chatters { time: self.state.kinematics.time, what, hint: self.hint(SMOOTHER) }
     }
 }

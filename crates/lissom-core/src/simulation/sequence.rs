@@ -2,6 +2,7 @@
 
 use crate::control::Review;
 use crate::energy_balance::EnergyBalance;
+use crate::errors::step_error::MORE_TOLERANT;
 use crate::errors::{InitialError, StepError};
 use crate::errors::{Warning, warn};
 use crate::instants;
@@ -346,6 +347,6 @@ impl Simulation {
             };
         }
         let unknown = self.integrator.most_inaccurate(&self.system, &self.state.kinematics);
-        StepError::TooInaccurate { time, size, unknown }
+        StepError::TooInaccurate { time, size, unknown, hint: self.hint(MORE_TOLERANT) }
     }
 }
