@@ -15,6 +15,7 @@ pub mod elastic;
 pub(crate) mod force_over_gap;
 pub mod forms;
 pub mod geometry;
+pub mod law;
 mod least_distance;
 pub mod nearest;
 pub mod of_beams;

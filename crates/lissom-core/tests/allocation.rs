@@ -5,7 +5,8 @@ use std::cell::Cell;
 
 use lissom_core::compliance::Compliance;
 use lissom_core::contact::forms::{Form, PlacedSolid, Solid};
-use lissom_core::contact::set::{ContactRule, ContactSet, Coulomb, Impact, TouchLaw, TouchingPart};
+use lissom_core::contact::law::{Coulomb, Impact};
+use lissom_core::contact::set::{ContactRule, ContactSet, TouchLaw, TouchingPart};
 use lissom_core::flexible::beam::SectionLaw;
 use lissom_core::flexible::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::joints;

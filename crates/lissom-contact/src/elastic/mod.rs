@@ -24,6 +24,7 @@ use nalgebra::SMatrix;
 use self::resistance::ContactResistance;
 use crate::geometry::gap::{Matrix3x6, Pair, side_by_side};
 use crate::geometry::hollow::Hollow;
+use crate::law::Coulomb;
 use crate::point::{ContactPoint, PointMotion};
 use crate::reading::{ContactElement, ContactReading};
 use lissom_mechanics::compliance::Compliance;
@@ -67,12 +68,8 @@ pub enum Dissipation {
 pub struct ContactFriction {
     /// Deflection of the bristles in the axes of the base.
     pub bristles: Vec<CoordinateId>,
-    /// Coefficient of sliding friction, μ.
-    pub sliding: f64,
-    /// Coefficient of friction at rest, μ_s.
-    pub at_rest: f64,
-    /// Sliding velocity at which the difference has fallen to 1/e, v_s [m/s].
-    pub stribeck: f64,
+    /// Its limit.
+    pub law: Coulomb,
     /// Deflection at which the bristles slip, z_c [m].
     pub deflection: f64,
 }
@@ -136,10 +133,10 @@ impl ContactFriction {
 
     /// Opposed to the sliding of the tip.
     pub(super) fn share(&self, bristles: &Vector3, sliding: &Vector3, normal: &Vector3) -> Share {
-        let velocity = self.stribeck;
+        let velocity = self.law.stribeck;
         let squared = sliding.norm_squared() / (velocity * velocity);
-        let more = (self.at_rest - self.sliding) * (-squared).exp();
-        let coefficient = self.sliding + more;
+        let more = self.law.excess(sliding.norm_squared());
+        let coefficient = self.law.sliding + more;
         let tangential = bristles - normal * normal.dot(bristles);
         let relative = tangential / self.deflection;
         let root = 1.0 / (1.0 + squared).sqrt();
@@ -359,7 +356,7 @@ impl Contact {
     /// Energy of the bristles per normal force [m].
     fn deflected(&self, touch: &Touch) -> f64 {
         let of_friction = self.friction.as_ref().map_or(0.0, |friction| {
-            0.5 * friction.at_rest / friction.deflection * touch.bristles.norm_squared()
+            0.5 * friction.law.at_rest / friction.deflection * touch.bristles.norm_squared()
         });
         let rotation = &touch.rotation;
         let resistance = self.resistance.as_ref();
@@ -616,7 +613,7 @@ impl StrainSlopes for Contact {
         self.point.frames.add_wrench(&touch.at.relative, &slope, out);
         if let Some(friction) = &self.friction {
             for (k, bristle) in touch.bristles.iter().enumerate() {
-                out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;
+                out[BRISTLES + k] += force * friction.law.at_rest / friction.deflection * bristle;
             }
         }
         if let Some(resistance) = &self.resistance {
@@ -690,9 +687,7 @@ mod tests {
     fn derivatives_of_yielding_are_those_of_differences() {
         let friction = ContactFriction {
             bristles: Vec::new(),
-            sliding: 0.4,
-            at_rest: 0.5,
-            stribeck: 0.1,
+            law: Coulomb { sliding: 0.4, at_rest: 0.5, stribeck: 0.1 },
             deflection: 2.0,
         };
         let sliding = Vector3::new(0.3, -0.2, 0.5);

@@ -7,6 +7,7 @@
 //! M = -N K h(z, ω),      K = ρ (I - n nᵀ) + σ n nᵀ,      δK h = (σ - ρ) (δn (n·h) + n (h·δn))
 //! ```
 
+use crate::law::Coulomb;
 use lissom_motion::{Matrix3, Vector3};
 
 use crate::elastic::ContactFriction;
@@ -44,9 +45,7 @@ impl ContactResistance {
         }
         let bristles = ContactFriction {
             bristles: Vec::new(),
-            sliding: 1.0,
-            at_rest: 1.0,
-            stribeck: YIELD_RATE,
+            law: Coulomb { sliding: 1.0, at_rest: 1.0, stribeck: YIELD_RATE },
             deflection: YIELD_ANGLE,
         };
         let bristles = bristles.with_bristles(&format!("{name}, rotation"), contribution);

@@ -331,7 +331,7 @@ impl ShellContact {
     /// Energy of the bristles per normal force, and its derivative by them [m, -].
     fn deflected(&self, bristle: &Vector3) -> (f64, Vector3) {
         self.friction.as_ref().map_or((0.0, Vector3::zeros()), |friction| {
-            let stiffness = friction.at_rest / friction.deflection;
+            let stiffness = friction.law.at_rest / friction.deflection;
             (0.5 * stiffness * bristle.norm_squared(), stiffness * bristle)
         })
     }

@@ -1,18 +1,17 @@
 //! Parts that may touch at many points, as one set: which of them are near, and the points and laws of their touches. Parts that are far
 //! from each other cost nothing.
 
-mod impact;
 mod near_pairs;
 mod smallest_gap;
 
 use lissom_motion::Motion;
 
-pub use impact::Impact;
 pub use near_pairs::{NearPair, NearPairs};
 pub use smallest_gap::SmallestGap;
 
 use crate::forms::{Meeting, PlacedSolid, meetings};
 use crate::geometry::surfaces::MeshError;
+use crate::law::{Coulomb, Impact};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::kinematics::{Kinematics, NodeId};
 
@@ -45,27 +44,6 @@ pub struct TouchLaw {
     pub impact: Impact,
     /// Coefficients of friction, if there is any.
     pub friction: Option<Coulomb>,
-}
-
-/// Dry friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coulomb {
-    /// Coefficient of sliding friction, μ.
-    pub sliding: f64,
-    /// Coefficient of friction at rest, μ_s.
-    pub at_rest: f64,
-    /// Sliding velocity at which the difference has fallen to 1/e, v_s [m/s].
-    pub stribeck: f64,
-}
-
-impl Coulomb {
-    /// μ + (μ_s - μ) exp(-(s/v_s)²) at the sliding velocity s [m/s].
-    pub fn coefficient(&self, velocity: f64) -> f64 {
-        if self.at_rest == self.sliding {
-            return self.sliding;
-        }
-        self.sliding + (self.at_rest - self.sliding) * (-(velocity / self.stribeck).powi(2)).exp()
-    }
 }
 
 /// A contact: every two of its parts may touch.

@@ -7,6 +7,7 @@ use lissom_core::contact::elastic::ContactFriction;
 use lissom_core::contact::geometry::gap::Pair;
 use lissom_core::contact::geometry::pairs::PointOnSurface;
 use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_core::contact::law::Coulomb;
 use lissom_core::contact::of_beams::BeamContact;
 use lissom_core::elements::{Contribution, Element, Spring};
 use lissom_core::flexible::beam::SectionLaw;
@@ -76,9 +77,7 @@ fn model(
     let mut contribution = Contribution::to(builder.model());
     let friction = is_rough.then(|| ContactFriction {
         bristles: (0..3).map(|k| contribution.add_state(format!("bristle {k}"), 0.1, 1.0)).collect(),
-        sliding: 0.4,
-        at_rest: 0.7,
-        stribeck: 40.0,
+        law: Coulomb { sliding: 0.4, at_rest: 0.7, stribeck: 40.0 },
         deflection: 4.0,
     });
     let pair: Arc<dyn Pair> = Arc::new(PointOnSurface { rounding: 3.0, surface });

@@ -9,6 +9,7 @@ use lissom_core::contact::geometry::curves::Segment;
 use lissom_core::contact::geometry::gap::Pair;
 use lissom_core::contact::geometry::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
 use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_core::contact::law::Coulomb;
 use lissom_core::elements::Contribution;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Freedoms, GROUND, Switch};
 use lissom_core::system::{Builder, State, System};
@@ -58,9 +59,7 @@ fn with_contact(
     let mut contribution = Contribution::to(builder.model());
     let friction = is_rough.then(|| ContactFriction {
         bristles: (0..3).map(|k| contribution.add_state(format!("bristle {k}"), 0.1, 1.0)).collect(),
-        sliding: 0.4,
-        at_rest: 0.7,
-        stribeck: 40.0,
+        law: Coulomb { sliding: 0.4, at_rest: 0.7, stribeck: 40.0 },
         deflection: 4.0,
     });
     let dissipation = Dissipation::Factor(if is_rough { 0.1 } else { 0.0 });
@@ -70,7 +69,8 @@ fn with_contact(
         let states = (0..3).map(|k| contribution.add_state(format!("angle {k}"), 0.2, 1.0));
         let (sliding, at_rest) = (1.0, 1.0);
         let bristles = states.collect();
-        let bristles = ContactFriction { bristles, sliding, at_rest, stribeck: 30.0, deflection: 3.0 };
+        let bristles =
+            ContactFriction { bristles, law: Coulomb { sliding, at_rest, stribeck: 30.0 }, deflection: 3.0 };
         ContactResistance { bristles, rolling: 0.6, spinning: 0.9 }
     });
     let mut contact = Contact::new(frames, pair, law, friction);

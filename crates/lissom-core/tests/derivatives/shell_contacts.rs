@@ -2,6 +2,7 @@
 
 use lissom_core::compliance::Compliance;
 use lissom_core::contact::elastic::ContactFriction;
+use lissom_core::contact::law::Coulomb;
 use lissom_core::contact::of_shells::{ShellContact, contact_patches};
 use lissom_core::elements::{Contribution, Element};
 use lissom_core::flexible::shell::section::{Ply, ShellLaw};
@@ -100,7 +101,11 @@ fn model(
 }
 
 fn rough() -> ContactFriction {
-    ContactFriction { bristles: Vec::new(), sliding: 0.4, at_rest: 0.7, stribeck: 40.0, deflection: 4.0 }
+    ContactFriction {
+        bristles: Vec::new(),
+        law: Coulomb { sliding: 0.4, at_rest: 0.7, stribeck: 40.0 },
+        deflection: 4.0,
+    }
 }
 
 /// Within an element on both sides, where two and four overlap, at an edge and at a corner of the surface.

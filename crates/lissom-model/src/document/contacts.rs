@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use lissom_contact::elastic::ContactFriction;
 use lissom_contact::forms::PlacedSolid;
+use lissom_contact::law::{Coulomb, Impact};
 use lissom_contact::rigid::RigidLaw;
 use lissom_mechanics::compliance::{Compliance, MIN_RESTITUTION, RestitutionLaw};
 use lissom_motion::Vector3;
@@ -31,15 +32,6 @@ pub struct Ground {
     pub surface: Option<Arc<Surface>>,
     /// Solids that parts touch, in global axes.
     pub(crate) solids: Vec<PlacedSolid>,
-}
-
-/// Dissipation of a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Restitution {
-    /// Relative increase of the normal force per penetration velocity [s/m].
-    Dissipation(f64),
-    /// Velocity after an impact over that before, at every velocity above the second number [m/s].
-    Coefficient(f64, f64, RestitutionLaw),
 }
 
 /// Parts that may touch.
@@ -73,8 +65,8 @@ pub enum ContactLaw {
 pub struct CompliantEntry {
     /// Normal force, or the materials of both parts, from which it follows.
     pub compliance: Result<Compliance, [Located<String>; 2]>,
-    /// Dissipation.
-    pub restitution: Restitution,
+    /// What an impact dissipates.
+    pub impact: Impact,
     /// Its friction, whose bristles are added with its points.
     pub friction: Option<ContactFriction>,
     /// Moments against rolling and spinning per normal force [m].
@@ -254,7 +246,7 @@ pub(super) fn contacts(
         }
         let law = CompliantEntry {
             compliance: compliance(reader)?,
-            restitution: restitution(reader)?,
+            impact: impact(reader)?,
             friction: friction(reader),
             resistance: [
                 reader.number("rolling_friction")?.value,
@@ -386,7 +378,7 @@ pub(super) fn check_law(
         );
         return context.fail(span, message, "lower `stiffness`, or set `rigid = true` instead");
     }
-    if friction.is_some_and(|friction| friction.at_rest < friction.sliding) {
+    if friction.is_some_and(|friction| friction.law.at_rest < friction.law.sliding) {
         let span = reader.node("static_friction").map_or(reader.name, |node| node.span);
         let message = format!("`static_friction` of {} is below `friction`", reader.what);
         return context.fail(span, message, "static friction must not be smaller than sliding friction");
@@ -408,7 +400,8 @@ pub(super) fn friction(reader: &Reader<'_, '_>) -> Option<ContactFriction> {
     let at_rest =
         if reader.has("static_friction") { reader.number("static_friction")?.value } else { sliding };
     let (stribeck, deflection) = (reader.number("stribeck")?.value, reader.number("deflection")?.value);
-    let law = ContactFriction { bristles: Vec::new(), sliding, at_rest, stribeck, deflection };
+    let law =
+        ContactFriction { bristles: Vec::new(), law: Coulomb { sliding, at_rest, stribeck }, deflection };
     (at_rest > 0.0).then_some(law)
 }
 
@@ -437,7 +430,7 @@ fn compliance(reader: &Reader<'_, '_>) -> Option<Result<Compliance, [Located<Str
     Some(Ok(Compliance { stiffness, exponent: reader.number("exponent")?.value }))
 }
 
-fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
+fn impact(reader: &Reader<'_, '_>) -> Option<Impact> {
     let context = reader.context;
     if let Some(node) = reader.node("restitution")
         && reader.number("restitution")?.value < MIN_RESTITUTION
@@ -447,17 +440,19 @@ fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
     }
     let fine = reader.node("rest_velocity").or_else(|| reader.node("restitution_law"));
     match (reader.node("restitution"), reader.node("dissipation"), fine) {
-        (None, None, None) => Some(Restitution::Dissipation(0.0)),
-        (None, Some(_), None) => Some(Restitution::Dissipation(reader.number("dissipation")?.value)),
-        (Some(_), None, _) => Some(Restitution::Coefficient(
-            reader.number("restitution")?.value,
-            reader.number("rest_velocity")?.value,
-            match reader.choice("restitution_law")?.value {
+        (None, None, None) => Some(Impact::Dissipation(0.0)),
+        (None, Some(_), None) => Some(Impact::Dissipation(reader.number("dissipation")?.value)),
+        (Some(_), None, _) => {
+            let law = match reader.choice("restitution_law")?.value {
                 "lankarani_nikravesh" => RestitutionLaw::LankaraniNikravesh,
                 "flores" => RestitutionLaw::Flores,
                 _ => RestitutionLaw::Exact,
-            },
-        )),
+            };
+            let coefficient = reader.number("restitution")?.value;
+            let relative = law.relative_dissipation(coefficient);
+            let rest_velocity = reader.number("rest_velocity")?.value;
+            Some(Impact::Restitution { coefficient, relative, rest_velocity })
+        }
         (Some(_), Some(node), _) => {
             let message = format!("{} has both `restitution` and `dissipation`", reader.what);
             context.fail(node.span, message, "remove one of them")

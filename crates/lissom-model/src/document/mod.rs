@@ -61,7 +61,7 @@ pub use crate::reading::node_reference::{MeshPlace, NodeReference, interface_nam
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use beam_contacts::{BeamContactEntry, Touching};
-pub use contacts::{CompliantEntry, ContactEntry, ContactLaw, Ground, Restitution};
+pub use contacts::{CompliantEntry, ContactEntry, ContactLaw, Ground};
 pub use distributed::DistributedForce;
 pub use elastic_solids::{ElasticSolid, FacePressure};
 pub use events::EventEntry;

@@ -1,15 +1,14 @@
 //! Contacts of schemes that solve for all touches of a step at once: their parts and laws, without elements and events.
 
-use lissom_contact::elastic::ContactFriction;
 use lissom_contact::forms::{FormKind, PlacedSolid};
-use lissom_contact::set::{ContactRule, Coulomb, Impact, TouchLaw, TouchingPart};
+use lissom_contact::set::{ContactRule, TouchLaw, TouchingPart};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::kinematics::NodeId;
 use lissom_system::Builder;
 
 use super::contacts::{check_clamp, meetings_of, solids};
 use super::names::Names;
-use crate::document::{CompliantEntry, ContactEntry, Document, Restitution};
+use crate::document::{CompliantEntry, ContactEntry, Document};
 use crate::text::report::Problem;
 
 /// Adds a contact.
@@ -62,18 +61,10 @@ pub(super) fn add(
             found.map_or([1.0, 0.0], |found| [found.constants.young, found.constants.poisson()])
         })
     });
-    let impact = match law.restitution {
-        Restitution::Dissipation(factor) => Impact::Dissipation(factor),
-        Restitution::Coefficient(coefficient, rest_velocity, by) => {
-            Impact::Restitution { coefficient, relative: by.relative_dissipation(coefficient), rest_velocity }
-        }
-    };
-    let friction = law.friction.as_ref();
-    let coulomb =
-        |&ContactFriction { sliding, at_rest, stribeck, .. }: &_| Coulomb { sliding, at_rest, stribeck };
+    let friction = law.friction.as_ref().map(|friction| friction.law);
     // The compliance of two materials depends on the curvatures of each pair.
     let compliance = law.compliance.as_ref().copied().unwrap_or(Compliance { stiffness: 1.0, exponent: 1.5 });
-    let law = TouchLaw { compliance, impact, friction: friction.map(coulomb) };
+    let law = TouchLaw { compliance, impact: law.impact, friction };
     builder.contacts_mut().rules.push(ContactRule { name: name.clone(), parts, law, materials });
     Ok(())
 }

@@ -6,6 +6,7 @@ use lissom_contact::elastic::resistance::ContactResistance;
 use lissom_contact::elastic::{Contact, ContactMotion, Dissipation};
 use lissom_contact::forms::{Meeting, PlacedSolid, meetings};
 use lissom_contact::geometry::gap::Pair;
+use lissom_contact::law::Impact;
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, Subject};
@@ -16,7 +17,7 @@ use lissom_system::Builder;
 
 use super::names::Names;
 use super::straight_line::Line;
-use crate::document::{CompliantEntry, ContactEntry, ContactLaw, Document, NodeLocation, Restitution};
+use crate::document::{CompliantEntry, ContactEntry, ContactLaw, Document, NodeLocation};
 use crate::outputs::contact_point::ContactPoint;
 use crate::reading::node_reference::NodeReference;
 use crate::text::report::{Located, Problem};
@@ -88,11 +89,10 @@ pub(super) fn add(
         let own = if number == 0 { name.clone() } else { format!("{name} {}", number + 1) };
         let event = touch_name(entry, &own, &point);
         let compliance = compliance(document, (entry, law), point.solids)?;
-        let (dissipation, velocity) = match law.restitution {
-            Restitution::Dissipation(factor) => (Dissipation::Factor(factor), None),
-            Restitution::Coefficient(coefficient, least, by) => {
+        let (dissipation, velocity) = match law.impact {
+            Impact::Dissipation(factor) => (Dissipation::Factor(factor), None),
+            Impact::Restitution { relative, rest_velocity: least, .. } => {
                 let held = builder.add_held(&format!("{own}, impact velocity"), 0.0);
-                let relative = by.relative_dissipation(coefficient);
                 (Dissipation::AtTouch { relative, velocity: held, least }, Some(held))
             }
         };

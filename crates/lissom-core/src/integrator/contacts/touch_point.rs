@@ -29,7 +29,8 @@ use nalgebra::Vector2;
 
 use crate::contact::forms::Meeting;
 use crate::contact::geometry::gap::Matrix3x6;
-use crate::contact::set::{Impact, TouchLaw, placed};
+use crate::contact::law::Impact;
+use crate::contact::set::{TouchLaw, placed};
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, split};
 use crate::system::{Touch, TouchKey};
 
@@ -546,7 +547,8 @@ mod tests {
     use super::*;
     use crate::compliance::Compliance;
     use crate::contact::forms::{Form, PlacedSolid, Solid};
-    use crate::contact::set::{ContactRule, ContactSet, Coulomb, TouchingPart};
+    use crate::contact::law::Coulomb;
+    use crate::contact::set::{ContactRule, ContactSet, TouchingPart};
     use crate::kinematics::{GROUND, NodeMotion};
 
     /// A ball that touches a plane, with a law.

@@ -1,6 +1,6 @@
-//! What an impact dissipates.
+//! Laws of a touch that do not depend on how it is solved: what an impact dissipates, and dry friction.
 //!
-//! Legend: e restitution, v velocity at which the touch began, a dissipation factor [s/m].
+//! Legend: e restitution, v velocity at which the touch began, a dissipation factor [s/m]; s sliding velocity.
 
 /// Dissipation of a touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,5 +35,31 @@ impl Impact {
             Self::Dissipation(_) => None,
             Self::Restitution { rest_velocity, .. } => Some(rest_velocity),
         }
+    }
+}
+
+/// Dry friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb {
+    /// Coefficient of sliding friction, μ.
+    pub sliding: f64,
+    /// Coefficient of friction at rest, μ_s.
+    pub at_rest: f64,
+    /// Sliding velocity at which the difference has fallen to 1/e, v_s [m/s].
+    pub stribeck: f64,
+}
+
+impl Coulomb {
+    /// (μ_s - μ) exp(-(s/v_s)²) by the square of s [m²/s²].
+    pub(crate) fn excess(&self, squared: f64) -> f64 {
+        (self.at_rest - self.sliding) * (-(squared / (self.stribeck * self.stribeck))).exp()
+    }
+
+    /// μ + (μ_s - μ) exp(-(s/v_s)²) at the sliding velocity s [m/s].
+    pub fn coefficient(&self, velocity: f64) -> f64 {
+        if self.at_rest == self.sliding {
+            return self.sliding;
+        }
+        self.sliding + self.excess(velocity * velocity)
     }
 }
