@@ -10,8 +10,8 @@ use crate::geometry::gap::Pair;
 use crate::geometry::pairs::{CurveOnSurface, EllipsoidOnPlane, PointOnSurface, RimOnPlane};
 use crate::geometry::surfaces::{Mesh, MeshError};
 
-/// Radius of the edges of boxes where both solids have edges, of the shortest side: edges that cross then have a direction between
-/// them.
+/// Radius of the edges of boxes and outlines where both solids have edges, of the shortest side: edges that cross then have a direction
+/// between them, and faces of one width, flush with each other, touch.
 const EDGE_ROUNDING: f64 = 0.02;
 
 /// Parts of a tip that touch a base.
@@ -49,10 +49,11 @@ impl Parts {
     }
 }
 
-/// Radius of the edges of a box where both solids have edges [m]; zero for other forms.
+/// Radius of the edges of a box or an outline where both solids have edges [m]; zero for other forms.
 pub(super) fn edge_rounding(form: &Form) -> f64 {
     match form {
         Form::Solid(Solid::Box(sides)) => EDGE_ROUNDING * sides.iter().copied().fold(f64::INFINITY, f64::min),
+        Form::Polygon(polygon) => EDGE_ROUNDING * polygon.shortest_side(),
         _ => 0.0,
     }
 }
@@ -66,6 +67,8 @@ pub(super) fn touching(
     (tip, parts): (&Form, Parts),
     [own, round]: [f64; 2],
 ) -> Result<Vec<Touching>, MeshError> {
+    // The surface of an outline keeps its edges: those of the other one are rounded.
+    let own = if matches!(base, Form::Polygon(_)) { 0.0 } else { own };
     let Some(surface) = base.surface(own)? else { return Ok(Vec::new()) };
     let ball = |radius: f64| -> Arc<dyn Pair> {
         Arc::new(PointOnSurface { rounding: own + radius, surface: surface.clone() })
@@ -86,7 +89,8 @@ pub(super) fn touching(
             one(line(Arc::new(Segment::new(0.5 * length)), *radius))
         }
         (Parts::Corners, _) => {
-            corners(tip, round)?.into_iter().map(|place| (ball(round), Motion::translation(place))).collect()
+            let all = corners(tip, round)?.into_iter();
+            all.map(|(place, radius)| (ball(radius), Motion::translation(place))).collect()
         }
         (Parts::Edges, Form::Solid(Solid::Box(sides))) => {
             edges(sides, round).map(|(edge, frame)| (line(Arc::new(edge), round), frame)).collect()
@@ -104,16 +108,19 @@ pub(super) fn touching(
     })
 }
 
-/// The corners of a form, of a box whose faces are moved inwards by `inset`.
-fn corners(form: &Form, inset: f64) -> Result<Vec<Vector3>, MeshError> {
+/// The corners of a form with their radii, at most `inset` [m], by which the faces of boxes and outlines are moved inwards.
+fn corners(form: &Form, inset: f64) -> Result<Vec<(Vector3, f64)>, MeshError> {
+    let sharp = |place: Vector3| (place, 0.0);
     Ok(match form {
         Form::Solid(Solid::Box(sides)) => {
             let place = |bit: usize| Vector3::from_fn(|k, _| signed(bit >> k, 0.5 * sides[k] - inset));
-            (0..8).map(place).collect()
+            (0..8).map(|bit| (place(bit), inset)).collect()
         }
-        Form::Hull(mesh) => mesh.corners().collect(),
-        Form::Mesh(own) => Mesh::hull(&own.points)?.corners().collect(),
-        Form::Polygon(polygon) => polygon.convex_corners().map(|own| own.push(0.0)).collect(),
+        Form::Hull(mesh) => mesh.corners().map(sharp).collect(),
+        Form::Mesh(own) => Mesh::hull(&own.points)?.corners().map(sharp).collect(),
+        Form::Polygon(polygon) => {
+            polygon.round_corners(inset).map(|(own, radius)| (own.push(0.0), radius)).collect()
+        }
         _ => Vec::new(),
     })
 }

@@ -74,6 +74,15 @@ pub struct CompliantEntry {
 }
 
 impl ContactEntry {
+    /// Number of its moving parts if shapes of each two of them may touch, otherwise zero.
+    pub(super) fn moving_parts(&self) -> usize {
+        if !matches!(self.law, ContactLaw::Compliant(_)) {
+            return 0;
+        }
+        let parts = self.between.iter().chain(&self.others);
+        parts.filter(|part| part.value != NodeReference::Ground).count()
+    }
+
     /// Every two parts that may touch.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = [&Located<NodeReference>; 2]> {
         let parts: Vec<_> = self.between.iter().chain(&self.others).collect();

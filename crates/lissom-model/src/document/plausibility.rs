@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::connections::{Places, part_of};
-use super::{AnalysisKind, Body, Component, ContactEntry, ContactLaw, Document, NodeReference};
+use super::{AnalysisKind, Body, Component, Document, NodeReference};
 use lissom_motion::Vector3;
 
 use crate::outputs::entry::{Output, OutputSource};
@@ -102,21 +102,20 @@ fn many_contacts(document: &Document, _: &Places) -> Vec<Doubt> {
     if !matches!(analysis.kind, AnalysisKind::Dynamics { .. }) || !analysis.has_default_scheme() {
         return Vec::new();
     }
-    let doubt = |entry: &ContactEntry| {
-        let parts = entry.between.iter().chain(&entry.others);
-        let count = parts.filter(|part| part.value != NodeReference::Ground).count();
-        (matches!(entry.law, ContactLaw::Compliant(_)) && count >= MANY_PARTS).then(|| {
+    let crowds = document.contacts.iter().map(|entry| (&entry.name, entry.moving_parts()));
+    let crowds = crowds.filter(|(_, count)| *count >= MANY_PARTS);
+    crowds
+        .map(|(name, count)| {
             let message = format!(
                 "{count} moving parts may touch each other in contact `{}`, and by default every touch is followed by events and \
                  controlled errors, which takes long",
-                entry.name.value
+                name.value
             );
             let help = "with `scheme = \"backward-euler\"` and `step = 1e-3` all touches of a step are solved at once: of first order in \
                         the step; name another scheme to keep this way";
-            (entry.name.span, message, help.to_owned())
+            (name.span, message, help.to_owned())
         })
-    };
-    document.contacts.iter().filter_map(doubt).collect()
+        .collect()
 }
 
 /// What is doubtful: where, why, and what is probably meant.

@@ -6,6 +6,7 @@ mod impacts_of_many;
 mod many_parts;
 mod of_beams;
 mod planned_steps;
+mod registry;
 mod rigid;
 mod rolling;
 mod shapes;

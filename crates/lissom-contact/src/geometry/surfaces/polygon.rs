@@ -39,13 +39,24 @@ impl Polygon {
         &self.corners
     }
 
-    /// Corners that protrude: those with which it touches others.
-    pub fn convex_corners(&self) -> impl Iterator<Item = Vector2<f64>> {
+    /// Middles of circles about the corners that protrude, those with which it touches others, and their radii: circles of `radius` [m]
+    /// touch both sides from inside, smaller ones in acute corners.
+    pub fn round_corners(&self, radius: f64) -> impl Iterator<Item = (Vector2<f64>, f64)> {
         let count = self.corners.len();
         (0..count).filter_map(move |k| {
             let [before, own, after] = [k + count - 1, k, k + 1].map(|index| self.corners[index % count]);
-            ((own - before).perp(&(after - own)) > 0.0).then_some(own)
+            let inwards = [own - before, after - own].map(|side| Vector2::new(-side.y, side.x).normalize());
+            let [one, other] = inwards;
+            let width = 1.0 + one.dot(&other);
+            let share = radius * (1.0 / width).min(1.0);
+            (one.perp(&other) > 0.0).then(|| (own + share * (one + other), share * width))
         })
+    }
+
+    /// Length of its shortest side [m].
+    pub fn shortest_side(&self) -> f64 {
+        let next = self.corners.iter().cycle().skip(1);
+        self.corners.iter().zip(next).map(|(p, q)| (q - p).norm()).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -118,7 +129,7 @@ impl Surface for Polygon {
     }
 
     fn has_hollows(&self) -> bool {
-        self.convex_corners().count() < self.corners.len()
+        self.round_corners(0.0).count() < self.corners.len()
     }
 
     fn sides(&self, y: &Vector3, within: f64, visit: &mut dyn FnMut(&Distance)) {
