@@ -102,3 +102,31 @@ fn every_pair_rests_with_every_solution() {
     }
     assert!(pairs > 30, "{pairs} pairs");
 }
+
+/// Restitution of impacts.
+const RESTITUTION: f64 = 0.5;
+
+/// Every pair rebounds with its restitution: a form on a guide flies at 1 m/s against another one, without weight. Edges are crowned, so
+/// that corners and edges touch one after the other: elements then miss the restitution by 0.3 %.
+#[test]
+fn every_pair_rebounds_with_every_solution() {
+    for &base in FormKind::ALL {
+        for &tip in FormKind::ALL {
+            let can_move = !matches!(tip, FormKind::Plane | FormKind::HeightField);
+            if !can_move || has_file(base) || has_file(tip) || parts_between([base, tip]).is_none() {
+                continue;
+            }
+            for solution in [Solution::Elements, Solution::Rigid, Solution::Set] {
+                let what = format!("{} on {}, {solution:?}", tip.words(), base.words());
+                let text = model([base, tip], solution)
+                    .replace("dissipation = 5", &format!("restitution = {RESTITUTION}"))
+                    .replace("rigid = true", &format!("rigid = true\nrestitution = {RESTITUTION}"))
+                    .replace("gravity = [0, 0, -9.81]", "gravity = [0, 0, 0]")
+                    .replace("axis = \"z\"\n[contacts", "axis = \"z\"\nvelocity = -1\n[outputs.v]\nkind = \"velocity\"\nof = \"part\"\n[contacts")
+                    .replace("end = 2", "end = 0.3");
+                let velocity = last(&run(&text, &[]), "v.v3");
+                assert!((velocity - RESTITUTION).abs() < 3e-3, "{what}: {velocity}");
+            }
+        }
+    }
+}
