@@ -187,12 +187,12 @@ impl EnergyBalance {
     }
 
     /// Records an impact that dissipates `lost` [J] at an instant; without it an inelastic one, which dissipates the kinetic energy of
-    /// the change of velocities. The rest of the change of energy is work of drives.
+    /// the change of velocities. The rest of the change of energy is work of drives. Touches of a set keep their energy.
     pub(crate) fn record_impact(
         &mut self,
         system: &System,
-        before: &Kinematics,
-        after: &Kinematics,
+        (before, after): (&Kinematics, &Kinematics),
+        of_touches: Energy,
         lost: Option<f64>,
     ) {
         let lost = lost.unwrap_or_else(|| {
@@ -207,7 +207,7 @@ impl EnergyBalance {
         self.latches += lost;
         self.drives += drives;
         self.moved += drives.abs();
-        self.weigh(after, None);
+        self.weigh([after, of_touches].into_iter().sum(), None);
     }
 
     /// Records the energy; in statics with the part of the weight that acts as a load.

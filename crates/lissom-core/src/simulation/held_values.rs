@@ -136,7 +136,8 @@ impl Simulation {
             if engages {
                 impact_of_latches(&self.system, initial, &mut state)?;
                 let [before, after] = [&self.state, &state].map(|state| &state.kinematics);
-                self.energy_balance.record_impact(&self.system, before, after, None);
+                let of_touches = self.state.touch_energy();
+                self.energy_balance.record_impact(&self.system, (before, after), of_touches, None);
             }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }

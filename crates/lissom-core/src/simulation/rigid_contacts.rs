@@ -586,7 +586,8 @@ impl Simulation {
                 self.add_jump(jump);
                 let mut before = &kept.kinematics;
                 if let Some(latched) = &latched {
-                    self.energy_balance.record_impact(&self.system, before, latched, None);
+                    let of_touches = self.state.touch_energy();
+                    self.energy_balance.record_impact(&self.system, (before, latched), of_touches, None);
                     before = latched;
                 }
                 self.finish_contacts(before, outcome);
@@ -647,7 +648,8 @@ impl Simulation {
         }
         if outcome.lost.is_some() {
             let after = &self.state.kinematics;
-            self.energy_balance.record_impact(&self.system, before, after, outcome.lost);
+            let of_touches = self.state.touch_energy();
+            self.energy_balance.record_impact(&self.system, (before, after), of_touches, outcome.lost);
         }
         for warning in outcome.warnings {
             warn(&mut self.warnings, warning);

@@ -6,7 +6,7 @@ use lissom::analyses::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, Session, SessionSnapshot};
 
 use crate::support::refused::refused;
-use crate::support::runs::{run, session};
+use crate::support::runs::{run, run_without_warnings, session};
 use crate::support::series::{last, series};
 
 /// Gravity [m/s²].
@@ -406,4 +406,18 @@ fn many_parts_without_a_scheme_are_told_of_the_one_for_them() {
     let unnamed = named.replace("scheme = \"backward-euler\"\n", "");
     assert!(warned(&unnamed) && !warned(&named));
     assert!(!warned(&poured(1, "", [1e-3, 0.01]).replace("scheme = \"backward-euler\"\n", "")));
+}
+
+/// Impacts of a rigid contact leave the energy of the touches beside it.
+#[test]
+fn impacts_beside_a_loaded_set_supply_no_energy() {
+    let bodies = ball("heavy", 0.5, [0.0, 0.0, 0.501], "").replace("mass = 1\n", "mass = 100\n")
+        + &ball("light", 0.1, [2.0, 0.0, 1.6], "").replace("mass = 1\n", "mass = 0.01\n");
+    let rigid = "[contacts.rigid]\nbase = \"ground\"\ntip = \"light\"\nrigid = true\nrestitution = 0.5";
+    let contact = format!("tip = \"heavy\"\ndissipation = 1\n{rigid}");
+    let text =
+        on_plane([0.0, -G], &bodies, &contact, [1e-3, 1.5]).replace("stiffness = 1e6", "stiffness = 1e5");
+    let record = run_without_warnings(&text, &[]);
+    let (light, normal) = (last(&record, "light.z"), last(&record, "all.normal"));
+    assert!(light < 0.5 && normal > 90.0 * G, "{light} {normal}");
 }
