@@ -26,6 +26,12 @@ impl Descent for StepEquations<'_> {
         self.watch.begin(Phase::Rest);
         self.omit_redundant();
         contacts.residual.copy_from_slice(&self.work.residuals[0]);
+        if contacts.smooth.diagonal.is_empty() {
+            // In the norm of an earlier step, whose constraints or size were others, any residual might be small.
+            self.watch.begin(Phase::Linearisation);
+            self.linearize_without_touches(&mut contacts);
+            self.watch.begin(Phase::Rest);
+        }
         let size = self.unbalance(&contacts);
         self.work.contacts = Some(contacts);
         size
@@ -61,9 +67,6 @@ impl StepEquations<'_> {
     fn unbalance(&self, contacts: &StepContacts) -> f64 {
         let layout = self.system.layout();
         let count = layout.coordinate_count();
-        if contacts.smooth.diagonal.is_empty() {
-            return f64::MAX;
-        }
         let h = self.scaled.step_size();
         let fall = h * h * self.system.gravity().norm();
         let (mut unbalance, mut motion) = (0.0, 0.0);

@@ -66,7 +66,7 @@ pub(crate) struct StepContacts {
 /// Tangent without touches.
 pub(crate) struct SmoothTangent {
     pub(crate) values: TangentValues,
-    /// Its diagonal by coordinate [SI]; empty before the first.
+    /// Its diagonal by coordinate [SI]; empty before it is assembled in a step.
     pub(crate) diagonal: Vec<f64>,
 }
 
@@ -97,11 +97,11 @@ impl StepContacts {
         self.impacts.label_of(layout, node)
     }
 
-    /// Counts a correction. Whether the tangent without touches is to be assembled for it: it hardly changes within a step, unless the
-    /// iterations converge slowly.
+    /// Counts a correction. Whether the tangent without touches is to be assembled again for it: it hardly changes within a step, unless
+    /// the iterations converge slowly.
     pub(crate) fn count_correction(&mut self) -> bool {
         self.corrections += 1;
-        self.corrections == 1 || self.corrections > FOLLOWING
+        self.corrections > FOLLOWING
     }
 
     /// Finds the points at which parts may touch in a step of `size` [s], part of a `planned` one [s], from the `start`, which may be that of
@@ -113,6 +113,7 @@ impl StepContacts {
         [size, planned]: [f64; 2],
     ) {
         (self.corrections, self.rounds) = (0, 0);
+        self.smooth.diagonal.clear();
         self.near.begin(system, (start, is_first), [size, planned]);
     }
 
