@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use lissom::core::contact::forms::{FormKind, parts_between};
 use lissom::core::diagnostics::{Entry, Severity};
 use lissom::{FileError, catalogue};
+use lissom_model::document::table_of_solutions;
 use lissom_model::lower::registry::registry;
 use lissom_model::{files, manual, python_entries, typed_entries};
 
@@ -24,7 +25,7 @@ fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
             "docs/warnings.md",
             vec![catalogued("warnings", Severity::Warning), catalogued("failures", Severity::Failure)],
         ),
-        ("docs/contacts.md", vec![pairs_of_solids()]),
+        ("docs/contacts.md", vec![pairs_of_solids(), ("solutions of contacts", table_of_solutions())]),
     ];
     for (name, tables) in chapters {
         let path = root.join(name);

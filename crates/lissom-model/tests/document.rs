@@ -241,3 +241,61 @@ fn solids_sections_and_axes_have_one_grammar() {
         assert_eq!((short.mass, short.inertia, short.surface), (long.mass, long.inertia, long.surface));
     }
 }
+
+#[test]
+fn contacts_without_kind_have_the_one_of_their_parts_and_keys() {
+    let text = r#"
+lissom = 1
+[ground]
+shape = { kind = "plane" }
+[bodies.ball]
+mass = 1
+inertia = { sphere = 0.1 }
+shape = { sphere = 0.1 }
+position = [0, 0, 0.3]
+[materials.steel]
+E = 2e11
+nu = 0.3
+density = 7800
+[sections.rod]
+shape = { kind = "circle", radius = 0.01 }
+material = "steel"
+[beams.rod]
+section = "rod"
+from = [0, 0, 1]
+to = [1, 0, 1]
+elements = 2
+[shells.sheet]
+material = "steel"
+thickness = 0.01
+corners = [[0, 0, 2], [1, 0, 2], [1, 1, 2], [0, 1, 2]]
+divisions = [2, 2]
+[contacts.touch]
+KEYS
+[analysis]
+kind = "dynamics"
+end = 0.1
+"#;
+    let cases = [
+        ("compliant", "base = \"ground\"\ntip = \"ball\"\nstiffness = 1e6\nfriction = 0.3"),
+        ("rigid", "base = \"ground\"\ntip = \"ball\"\nrigid = true"),
+        ("along", "base = \"ground\"\ntip = \"rod\"\nstiffness_per_length = 1e6"),
+        ("nearest", "base = \"ball\"\ntip = \"rod\"\nstiffness = 1e6"),
+        ("nearest", "base = \"ball\"\ntip = \"sheet\"\nstiffness = 1e6"),
+        ("nodes", "base = \"ground\"\ntip = \"sheet\"\nstiffness_per_area = 1e6"),
+    ];
+    for (kind, keys) in cases {
+        let read = |keys: &str| {
+            let text = text.replace("KEYS", keys);
+            Document::parse(&text, "contact.toml", &registry()).map_err(|report| report.render(false))
+        };
+        let inferred = read(keys).unwrap().contacts[0].law.clone();
+        // Spans differ, which are part of names only.
+        let named = read(&format!("{keys}\nkind = \"{kind}\"")).unwrap().contacts[0].law.clone();
+        assert_eq!(inferred, named, "{kind}");
+        let others = cases.iter().filter(|(other, _)| *other != kind);
+        for (other, _) in others.filter(|(other, _)| (*other, kind) != ("compliant", "nearest")) {
+            assert!(read(&format!("{keys}\nkind = \"{other}\"")).is_err(), "{keys}: {other}");
+        }
+    }
+}

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use lissom_mechanics::joints::generalized_coordinates::KIND as FREE;
 use lissom_motion::Vector3;
 
+use super::contacts::Parts;
 use super::entries::PARTS;
 use super::tables::variants;
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, elastic_solids, events,
-    initial, local_loads, materials, outputs, shells, signals, superelements,
+    ground, initial, local_loads, materials, outputs, shells, signals, superelements,
 };
 use crate::expression;
 use crate::files::library::Library;
@@ -98,8 +99,9 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
     let local_loads = local_loads::local_loads(context);
-    let ground = contacts::ground(context);
-    let contacts = contacts::contacts(context, (&bodies, &point_masses, ground.as_ref()));
+    let ground = ground::ground(context);
+    let parts = Parts { bodies: &bodies, point_masses: &point_masses, ground: ground.as_ref() };
+    let contacts = contacts::contacts(context, &parts);
     signals::check_names(context);
     let inputs = signals::inputs(context);
     let signals = signals::signals(context);

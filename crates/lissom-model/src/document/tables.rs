@@ -15,6 +15,27 @@ impl Variants {
     pub(crate) fn words(&self) -> Vec<&'static str> {
         self.all.iter().map(|variant| variant.word).collect()
     }
+
+    /// The keys of all forms, of which those are required that every form requires.
+    pub(crate) fn merged_keys(&self) -> Vec<Key> {
+        let mut keys: Vec<Key> = Vec::new();
+        for key in self.all.iter().flat_map(|form| &form.keys) {
+            if !keys.iter().any(|known| known.name == key.name) {
+                let requires =
+                    |form: &Variant| form.keys.iter().any(|own| own.name == key.name && own.required);
+                keys.push(Key { required: self.all.iter().all(requires), ..key.clone() });
+            }
+        }
+        keys
+    }
+
+    /// The forms that have types of their own in code: one if it may be inferred.
+    pub(crate) fn in_code(self) -> Self {
+        if !self.is_inferred {
+            return self;
+        }
+        Self { tag: None, is_inferred: false, all: vec![single(self.merged_keys())] }
+    }
 }
 
 /// The forms of the tables under the word `name`.
@@ -33,8 +54,8 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),
         "local_loads" => (None, vec![single(super::local_loads::keys())]),
-        "ground" => (None, vec![single(super::contacts::ground_keys())]),
-        "contacts" => (None, vec![single(super::contacts::keys())]),
+        "ground" => (None, vec![single(super::ground::keys())]),
+        "contacts" => return super::contacts::variants(),
         "states" => (None, vec![single(state())]),
         "events" => (None, vec![single(super::events::keys())]),
         "initial" => (None, vec![single(initial())]),
@@ -43,7 +64,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "analysis" => (Some("kind"), analyses(registry)),
         _ => (None, Vec::new()),
     };
-    Variants { tag, all }
+    Variants { tag, is_inferred: false, all }
 }
 
 fn single(keys: Vec<Key>) -> Variant {

@@ -130,6 +130,8 @@ pub(crate) struct Variant {
 /// The forms of a table, and the key whose word chooses among them, if there are several.
 pub(crate) struct Variants {
     pub(crate) tag: Option<&'static str>,
+    /// Whether an entry without that key has the form that its other keys imply.
+    pub(crate) is_inferred: bool,
     pub(crate) all: Vec<Variant>,
 }
 

@@ -8,14 +8,12 @@ use lissom_mechanics::joints::{self, JointKind};
 use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_mechanics::signals::Argument;
-use lissom_system::schemes::ContactSolution;
 use lissom_system::{Builder, JointAttachment, PlaceOnTip};
 
-use super::contact_set;
 use super::names::{Names, parameter_problem};
 use super::order::by_name;
 use super::ports;
-use crate::document::{Component, ContactLaw, Document, OnTip};
+use crate::document::{Component, Document, OnTip};
 use crate::functions::Ramp;
 use crate::text::report::Problem;
 
@@ -70,21 +68,7 @@ pub(super) fn add(
         }
     }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
-        let name = entry.name.value.clone();
-        let added = match &entry.law {
-            ContactLaw::Rigid(law) => super::rigid_contacts::add(document, (entry, *law), names, builder)
-                .map(|points| drop(names.contacts.rigid.insert(name, points))),
-            ContactLaw::OfBeam(law) => super::beam_contacts::add(document, (entry, law), names, builder)
-                .map(|points| drop(names.contacts.compliant.insert(name, points))),
-            ContactLaw::OfShell(law) => super::shell_contacts::add(document, (entry, law), names, builder)
-                .map(|points| drop(names.contacts.compliant.insert(name, points))),
-            ContactLaw::Compliant(law) if document.analysis.contacts == ContactSolution::Set => {
-                contact_set::add(document, (entry, law), names, builder)
-            }
-            ContactLaw::Compliant(law) => super::contacts::add(document, (entry, law), names, builder)
-                .map(|points| drop(names.contacts.compliant.insert(name, points))),
-        };
-        problems.extend(added.err());
+        problems.extend(super::contacts::add(document, entry, names, builder).err());
     }
     super::measurements::bind(document, builder, names, problems);
 }

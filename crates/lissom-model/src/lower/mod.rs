@@ -1,9 +1,7 @@
 //! Conversion of a checked document to a system, with the core's builder and the registry. Contains no mechanics.
 
 mod analysis;
-mod beam_contacts;
 mod connections;
-mod contact_set;
 mod contacts;
 mod couplings;
 mod delay;
@@ -22,8 +20,6 @@ mod ports;
 mod readings;
 pub mod registry;
 mod resource_limits;
-mod rigid_contacts;
-mod shell_contacts;
 mod shells;
 mod signal_references;
 mod signals;

@@ -151,7 +151,7 @@ fn line(text: &mut String, words: &str) {
 }
 
 fn forms(text: &mut String, name: &str, registry: &Registry) {
-    let Variants { tag, all } = variants(name, registry);
+    let Variants { tag, all, .. } = variants(name, registry);
     for form in &all {
         if let Some(tag) = tag {
             line(text, &format!("\n### `{tag} = \"{}\"`\n\n{}", form.word, form.summary));

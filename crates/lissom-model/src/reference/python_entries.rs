@@ -75,7 +75,7 @@ fn base(table: &str) -> String {
 }
 
 fn of_table(text: &mut String, table: &str, registry: &Registry) {
-    let forms = variants(table, registry);
+    let forms = variants(table, registry).in_code();
     let summary = tops().find(|top| top.name == table).map_or("", |top| top.summary);
     let Some(tag) = forms.tag else {
         for form in &forms.all {
@@ -161,7 +161,7 @@ fn model_tables(registry: &Registry) -> String {
         |table: &str| FILES.iter().find(|(.., tables)| tables.contains(&table)).map(|(file, ..)| *file);
     for top in tops() {
         let Some(file) = file_of(top.name) else { continue };
-        let forms = variants(top.name, registry);
+        let forms = variants(top.name, registry).in_code();
         if forms.tag.is_none() {
             let _ = writeln!(text, "    {:?}: {file}.{},", top.name, base(top.name));
             continue;

@@ -59,9 +59,14 @@ fn table(name: &str, registry: &Registry) -> Value {
     let branch = |form: &Variant| {
         let mut then = schema_of_keys(&form.keys);
         describe(&mut then, form.summary);
-        json!({ "if": { "properties": { tag: { "const": form.word } } }, "then": then })
+        json!({ "if": { "properties": { tag: { "const": form.word } }, "required": [tag] }, "then": then })
     };
-    let branches: Vec<Value> = forms.all.iter().map(branch).collect();
+    let mut branches: Vec<Value> = forms.all.iter().map(branch).collect();
+    if forms.is_inferred {
+        branches.push(
+            json!({ "if": { "not": { "required": [tag] } }, "then": schema_of_keys(&forms.merged_keys()) }),
+        );
+    }
     let words = json!({ "enum": forms.words() });
     let choice = if name == "sections" {
         // Its dimensions may be within.
@@ -75,7 +80,7 @@ fn table(name: &str, registry: &Registry) -> Value {
     json!({
         "type": "object",
         "properties": { tag: choice },
-        "required": [tag],
+        "required": if forms.is_inferred { vec![] } else { vec![tag] },
         "allOf": branches,
     })
 }

@@ -61,7 +61,7 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
     for (file, summary, tables) in FILES {
         let mut types = Vec::new();
         for (table, id) in tables {
-            let found = variants(table, registry);
+            let found = variants(table, registry).in_code();
             types.extend(found.all.iter().map(|variant| entry((table, id), found.tag, variant, &mut words)));
         }
         if file == "joints" {

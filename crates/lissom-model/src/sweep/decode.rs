@@ -33,7 +33,8 @@ impl SweepFile {
             return Err(Report::new(tree.problems, &tree.sources));
         }
         let plain = Expanded::plain(tree.root.clone(), tree.sources.clone());
-        let context = Context::new(&plain, |_, _| Variants { tag: None, all: Vec::new() });
+        let context =
+            Context::new(&plain, |_, _| Variants { tag: None, is_inferred: false, all: Vec::new() });
         let root = Node { span: Span::default(), scope: ROOT, value: Value::Table(tree.root.clone()) };
         let sweep = decode(&context, &root);
         let problems = context.into_problems();

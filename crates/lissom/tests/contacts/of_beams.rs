@@ -475,14 +475,10 @@ fn wrong_contacts_of_beams_are_rejected() {
         ),
         ("stiffness_per_length = 1e6", "", "neither `stiffness` nor `stiffness_per_length`"),
         ("stiffness_per_length = 1e6", "stiffness_per_length = 1e6\nstiffness = 1e6", "both `stiffness`"),
-        (
-            "tip = \"rod\"",
-            "tip = \"rod\"\nrestitution = 0.5",
-            "`restitution` of contact `floor` is not available",
-        ),
+        ("tip = \"rod\"", "tip = \"rod\"\nrestitution = 0.5", "of kind `along`, which has no `restitution`"),
         ("tip = \"rod\"", "tip = \"rod\"\nbase_radius = 0.5", "is for a beam as base"),
         ("base = \"ground\"\ntip = \"rod\"", "base = \"rod\"\ntip = \"ground\"", "the beam is the tip"),
-        ("tip = \"rod\"", "tip = \"rod.end\"", "is for beams"),
+        ("tip = \"rod\"", "tip = \"rod.end\"", "of kind `compliant`, which has no `stiffness_per_length`"),
         ("{ kind = \"plane\" }", "{ sphere = 0.02 }", "the points of the beam are"),
         (
             "stiffness_per_length = 1e6",

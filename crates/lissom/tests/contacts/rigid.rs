@@ -576,7 +576,7 @@ end = 10
 #[test]
 fn what_is_not_available_is_rejected() {
     let stiff = BALL.replace("rigid = true", "rigid = true\nstiffness = 1e6");
-    assert!(refused(&stiff).contains("is rigid and has `stiffness`"), "{}", refused(&stiff));
+    assert!(refused(&stiff).contains("of kind `rigid`, which has no `stiffness`"), "{}", refused(&stiff));
     let weak =
         BALL.replace("rigid = true", "stiffness = 1e6").replace("restitution = 0.5", "restitution = 0");
     assert!(refused(&weak).contains("is below 0.01"), "{}", refused(&weak));

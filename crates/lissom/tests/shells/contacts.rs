@@ -351,8 +351,12 @@ fn wrong_contacts_of_shells_are_rejected() {
             "both `stiffness` and `stiffness_per_area`",
         ),
         ("stiffness = 1e6", "stiffness = 1e6\nrestitution = 0.5", "give `dissipation` instead"),
-        ("stiffness = 1e6", "stiffness = 1e6\nradius = 0.5", "`radius` of contact `touch` is for beams"),
-        ("stiffness = 1e6", "stiffness_per_area = 1e9", "nodes of the shell are 0.05"),
+        (
+            "stiffness = 1e6",
+            "stiffness = 1e6\nradius = 0.5",
+            "`radius` of contact `touch` is for a beam as tip",
+        ),
+        ("stiffness = 1e6", "stiffness_per_area = 1e9", "points of the shell are 0.05"),
         (
             "base = \"ball\"\ntip = \"sheet\"\nstiff",
             "base = \"sheet\"\ntip = \"ball\"\nstiff",
@@ -375,5 +379,5 @@ fn wrong_contacts_of_shells_are_rejected() {
     }
     let of_bodies = text.replace("tip = \"sheet\"\nstiffness", "tip = \"ground\"\nstiffness_per_area");
     let report = refused(&format!("{of_bodies}\n[ground]\nshape = {{ kind = \"plane\" }}\n"));
-    assert!(report.contains("is for shells"), "{report}");
+    assert!(report.contains("of kind `compliant`, which has no `stiffness_per_area`"), "{report}");
 }

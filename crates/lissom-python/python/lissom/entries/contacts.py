@@ -14,16 +14,17 @@ class Contact(Entry):
     """Pairs of parts that may touch, by their shapes.
 
     Args:
-        base: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one; a node.
-        others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
+        kind: its kind; default by its parts and keys; `"compliant"`, `"rigid"`, `"along"`, `"nearest"`, `"nodes"`, or nothing.
+        base: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one; a node.
         tip: the other part that may touch it; or the name of a beam or a shell; a node.
-        rigid: instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`; `true` or `false`, or nothing.
+        others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
+        rigid: older word for the kinds `rigid` and `compliant`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
         material: instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz; the name of an entry of `[materials]`, or nothing.
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
-        restitution: velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; of rigid contacts from 0 to 1, and 0 if it is omitted; a number from 0 to 1, or nothing.
-        rest_velocity: slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; requires `restitution` or `rigid`; default 1e-3 [m/s]; a number > 0, or nothing.
+        restitution: velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; a number from 0 to 1, or nothing.
+        rest_velocity: slower impacts dissipate as those of this velocity; requires `restitution`; default 1e-3 [m/s]; a number > 0, or nothing.
         restitution_law: how the dissipation follows from `restitution`; those other than "exact" are for comparison with publications; default `"exact"`; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
@@ -32,18 +33,19 @@ class Contact(Entry):
         deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
         rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
         torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
+        stiffness_per_length: of a beam: normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
+        points: of a beam: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
         radius: of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal [m]; a number > 0, or nothing.
-        base_radius: the same of a beam as base [m]; a number > 0, or nothing.
-        stiffness_per_length: of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
-        points: with `stiffness_per_length`: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
-        stiffness_per_area: of a shell as tip, instead of `stiffness`: it touches at its nodes, with this normal force per area at a penetration of 1 m [N/m^(n+2)]; a number > 0, or nothing.
+        base_radius: of a beam as base: its radius [m]; a number > 0, or nothing.
+        stiffness_per_area: of a shell: normal force per area at a penetration of 1 m [N/m^(n+2)]; a number > 0, or nothing.
     """
 
     _table: ClassVar[str] = "contacts"
 
+    kind: Literal["compliant", "rigid", "along", "nearest", "nodes"] | None = None
     base: str
-    others: list[str] | None = None
     tip: str
+    others: list[str] | None = None
     rigid: bool | None = None
     stiffness: Number | None = None
     exponent: Number | None = None
@@ -59,10 +61,10 @@ class Contact(Entry):
     deflection: Number | None = None
     rolling_friction: Number | None = None
     torsional_friction: Number | None = None
-    radius: Number | None = None
-    base_radius: Number | None = None
     stiffness_per_length: Number | None = None
     points: Count | None = None
+    radius: Number | None = None
+    base_radius: Number | None = None
     stiffness_per_area: Number | None = None
 
 

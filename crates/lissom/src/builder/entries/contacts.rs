@@ -12,12 +12,14 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `base`: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one
+    /// - `base`: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one
     /// - `tip`: the other part that may touch it; or the name of a beam or a shell
     new(base: Node = "base", tip: Node = "tip")
+    /// Its kind; default by its parts and keys.
+    kind: words::Kind = "kind";
     /// Further parts: every two of `base`, `tip` and these may touch.
     others: Vec<Node> = "others";
-    /// Instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`.
+    /// Older word for the kinds `rigid` and `compliant`.
     rigid: bool = "rigid";
     /// Normal force at a penetration of 1 m \[N/m^n\].
     stiffness: f64 = "stiffness";
@@ -27,9 +29,9 @@ entry! {
     material: MaterialId = "material";
     /// Material of the tip, if it is another one.
     tip_material: MaterialId = "tip_material";
-    /// Velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; of rigid contacts from 0 to 1, and 0 if it is omitted.
+    /// Velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted.
     restitution: f64 = "restitution";
-    /// Slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; requires `restitution` or `rigid`; default 1e-3 \[m/s\].
+    /// Slower impacts dissipate as those of this velocity; requires `restitution`; default 1e-3 \[m/s\].
     rest_velocity: f64 = "rest_velocity";
     /// How the dissipation follows from `restitution`; those other than "exact" are for comparison with publications; default `"exact"`.
     restitution_law: words::RestitutionLaw = "restitution_law";
@@ -47,15 +49,15 @@ entry! {
     rolling_friction: f64 = "rolling_friction";
     /// Moment against spinning about the normal per normal force; default 0 \[m\].
     torsional_friction: f64 = "torsional_friction";
+    /// Of a beam: normal force per length at a penetration of 1 m \[N/m^(n+1)\].
+    stiffness_per_length: f64 = "stiffness_per_length";
+    /// Of a beam: number of intervals between points of contact in an element; default 2.
+    points: usize = "points";
     /// Of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal \[m\].
     radius: f64 = "radius";
-    /// The same of a beam as base \[m\].
+    /// Of a beam as base: its radius \[m\].
     base_radius: f64 = "base_radius";
-    /// Of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m \[N/m^(n+1)\].
-    stiffness_per_length: f64 = "stiffness_per_length";
-    /// With `stiffness_per_length`: number of intervals between points of contact in an element; default 2.
-    points: usize = "points";
-    /// Of a shell as tip, instead of `stiffness`: it touches at its nodes, with this normal force per area at a penetration of 1 m \[N/m^(n+2)\].
+    /// Of a shell: normal force per area at a penetration of 1 m \[N/m^(n+2)\].
     stiffness_per_area: f64 = "stiffness_per_area";
 }
 

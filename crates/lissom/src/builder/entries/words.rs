@@ -81,6 +81,16 @@ words! {
 }
 
 words! {
+    /// One of `compliant`, `rigid`, `along`, `nearest`, `nodes`.
+    Kind;
+    Compliant = "compliant";
+    Rigid = "rigid";
+    Along = "along";
+    Nearest = "nearest";
+    Nodes = "nodes";
+}
+
+words! {
     /// One of `x`, `y`, `z`, `rx`, `ry`, `rz`.
     Locked;
     X = "x";

@@ -10,9 +10,9 @@ use lissom_mechanics::signals::event::{Direction, Event};
 use lissom_mechanics::signals::{Argument, Signal};
 use lissom_system::Builder;
 
-use super::contacts::points_of_solids;
-use super::names::Names;
-use super::straight_line::Line;
+use super::super::names::Names;
+use super::super::straight_line::Line;
+use super::pairs::points_of_solids;
 use crate::document::{ContactEntry, Document};
 use crate::outputs::contact_point::RigidPoint;
 use crate::text::report::Problem;

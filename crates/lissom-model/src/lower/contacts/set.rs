@@ -1,39 +1,33 @@
 //! Contacts of schemes that solve for all touches of a step at once: their parts and laws, without elements and events.
 
 use lissom_contact::forms::{FormKind, PlacedSolid};
+use lissom_contact::law::Impact;
 use lissom_contact::set::{ContactRule, TouchLaw, TouchingPart};
-use lissom_mechanics::compliance::Compliance;
+use lissom_mechanics::compliance::{Compliance, RestitutionLaw};
 use lissom_mechanics::kinematics::NodeId;
 use lissom_system::Builder;
 
-use super::contacts::{check_clamp, meetings_of, solids};
-use super::names::Names;
-use crate::document::{CompliantEntry, ContactEntry, Document};
+use super::super::names::Names;
+use super::compliant::compliance;
+use super::pairs::{check_clamp, meetings_of, solids};
+use crate::document::{CompliantLaw, ContactEntry, Document};
 use crate::text::report::Problem;
 
 /// Adds a contact.
 pub(super) fn add(
     document: &Document,
-    (entry, law): (&ContactEntry, &CompliantEntry),
+    (entry, law): (&ContactEntry, &CompliantLaw),
     names: &Names,
     builder: &mut Builder,
 ) -> Result<(), Problem> {
     let name = &entry.name.value;
-    if law.resistance != [0.0; 2] {
-        let message = format!(
-            "contact `{name}`: rolling and torsional friction are not available with contacts as a set"
-        );
+    if let Some(what) = refused(document, law) {
+        let message = format!("contact `{name}`: {what} not available with contacts as a set");
         return Err(Problem::error(entry.name.span, message)
-            .help("remove them, or write `contacts = \"elements\"` in `[analysis]`"));
+            .help("remove it, or write `contacts = \"elements\"` in `[analysis]`"));
     }
     let members: Vec<_> = entry.between.iter().chain(&entry.others).collect();
     let solids: Vec<_> = members.iter().map(|part| solids(document, &part.value)).collect();
-    if document.starts_in_equilibrium() {
-        let message =
-            format!("contact `{name}`: a start from equilibrium is not available with contacts as a set");
-        return Err(Problem::error(entry.name.span, message)
-            .help("let the parts settle, or write `contacts = \"elements\"` in `[analysis]`"));
-    }
     let mut known: Vec<[FormKind; 2]> = Vec::new();
     for tip in 1..members.len() {
         for base in 0..tip {
@@ -44,7 +38,7 @@ pub(super) fn add(
                 let kinds = pair.map(|solid| solid.form.kind());
                 if !known.contains(&kinds) {
                     meetings_of(entry, pair)?;
-                    super::contacts::compliance(document, (entry, law), pair)?;
+                    compliance(document, (entry, law), pair)?;
                     known.push(kinds);
                 }
             }
@@ -63,10 +57,23 @@ pub(super) fn add(
     });
     let friction = law.friction.as_ref().map(|friction| friction.law);
     // The compliance of two materials depends on the curvatures of each pair.
-    let compliance = law.compliance.as_ref().copied().unwrap_or(Compliance { stiffness: 1.0, exponent: 1.5 });
-    let law = TouchLaw { compliance, impact: law.impact, friction };
+    let own = law.compliance.as_ref().copied().unwrap_or(Compliance { stiffness: 1.0, exponent: 1.5 });
+    let law = TouchLaw { compliance: own, impact: law.impact, friction };
     builder.contacts_mut().rules.push(ContactRule { name: name.clone(), parts, law, materials });
     Ok(())
+}
+
+/// What a set cannot do of what a contact and its model want.
+fn refused(document: &Document, law: &CompliantLaw) -> Option<&'static str> {
+    if law.resistance != [0.0; 2] {
+        return Some("rolling and torsional friction are");
+    }
+    if let Impact::Restitution { coefficient, relative, .. } = law.impact
+        && relative != RestitutionLaw::Exact.relative_dissipation(coefficient)
+    {
+        return Some("`restitution_law` is");
+    }
+    document.starts_in_equilibrium().then_some("a start from equilibrium is")
 }
 
 /// Index of a part of the set, which is added unless it is known.
