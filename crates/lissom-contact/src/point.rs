@@ -2,7 +2,7 @@
 //!
 //! Legend: g gap, n normal and p point of contact in the axes of the base's solid, see [`geometry::gap`](crate::geometry::gap); (R, x)
 //! tip's frame in the base's, d = Rᵀ(p - x); (v, ω) relative twist in the tip's axes, c = v + ω × d, u = R c velocity of the tip's
-//! point, s = u - n (n·u) sliding velocity; f force on the tip in the base's axes; η variation of the tip's frame.
+//! point, s = u - n (n·u) sliding velocity, of a surface that moves along itself at w on the base u - w in its place, on the tip u + R w; f force on the tip in the base's axes; η variation of the tip's frame.
 //!
 //! ```text
 //! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)
@@ -30,6 +30,16 @@ use crate::geometry::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 pub(crate) struct ContactPoint {
     pub(crate) frames: FramePair,
     pub(crate) pair: Arc<dyn Pair>,
+    pub(crate) surface: Option<MovingSurface>,
+}
+
+/// A surface of one of both solids that moves along itself, as that of a belt.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingSurface {
+    /// Whether it is the tip's.
+    pub is_tip: bool,
+    /// w [m/s], in the axes of the frame of its solid.
+    pub velocity: Vector3,
 }
 
 /// Motion at the point of contact.
@@ -43,11 +53,12 @@ pub struct PointMotion {
     carried: Vector3,
     /// u [m/s], base's axes.
     pub velocity: Vector3,
+    surface: Option<MovingSurface>,
 }
 
 impl ContactPoint {
     pub(crate) fn new(frames: [CarriedFrame; 2], pair: Arc<dyn Pair>) -> Self {
-        Self { frames: FramePair::new(frames), pair }
+        Self { frames: FramePair::new(frames), pair, surface: None }
     }
 
     pub(crate) fn motion(&self, at: &Kinematics) -> PointMotion {
@@ -56,7 +67,7 @@ impl ContactPoint {
         let arm = relative.rotation.tr_mul(&(gap.point - relative.position));
         let carried = translation_part(&relative.twist) + rotation_part(&relative.twist).cross(&arm);
         let velocity = relative.rotation * carried;
-        PointMotion { relative, gap, arm, carried, velocity }
+        PointMotion { relative, gap, arm, carried, velocity, surface: self.surface }
     }
 
     /// Gap [m].
@@ -104,7 +115,17 @@ impl PointMotion {
 
     /// s [m/s].
     pub fn sliding(&self) -> Vector3 {
-        self.velocity - self.gap.normal * self.rate()
+        let velocity = self.velocity - self.driven();
+        velocity - self.gap.normal * self.gap.normal.dot(&velocity)
+    }
+
+    /// Velocity that a moving surface gives a point that sticks to it, base's axes [m/s]: w, or -R w.
+    pub(crate) fn driven(&self) -> Vector3 {
+        match &self.surface {
+            None => Vector3::zeros(),
+            Some(MovingSurface { is_tip: false, velocity }) => *velocity,
+            Some(MovingSurface { velocity, .. }) => -self.relative.rotation * velocity,
+        }
     }
 
     /// The wrench on the tip's frame of a force on the tip.
@@ -155,7 +176,11 @@ impl PointMotion {
         let Gap { normal: n, normal_by, .. } = &self.gap;
         let across = Matrix3::identity() - n * n.transpose();
         let [mut by_place, by_rate] = velocity_by.map(|by| across * by);
-        by_place = by_place - self.rate() * normal_by - n * (self.velocity.transpose() * normal_by);
+        let velocity = self.velocity - self.driven();
+        by_place = by_place - n.dot(&velocity) * normal_by - n * (velocity.transpose() * normal_by);
+        if let Some(MovingSurface { is_tip: true, velocity }) = &self.surface {
+            by_place -= across * self.relative.rotation * side_by_side(&Matrix3::zeros(), &skew(velocity));
+        }
         [by_place, by_rate]
     }
 

@@ -59,6 +59,11 @@ impl StepWork {
         Self { loads: system.work_of_loads(from.0, to.0), drives: system.work_of_drives(from, to) }
     }
 
+    /// With further work of loads [J].
+    pub(crate) fn with_loads(self, work: f64) -> Self {
+        Self { loads: self.loads + work, ..self }
+    }
+
     /// By the quadrature of a scheme over its stages, in a step of `size` [s]: to the order of the scheme, and so that what an
     /// algebraically stable scheme dissipates is never negative.
     pub(crate) fn of_stages(

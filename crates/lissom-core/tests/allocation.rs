@@ -114,6 +114,7 @@ fn a_step_of_a_pile_at_rest_allocates_nothing() {
         compliance: Compliance { stiffness: 1e5, exponent: 1.0 },
         impact: Impact::Dissipation(1.0),
         friction: Some(Coulomb { sliding: 0.5, at_rest: 0.5, stribeck: 0.01 }),
+        surface: None,
     };
     let rule =
         ContactRule { name: "pile".to_owned(), parts: (0..parts.len()).collect(), law, materials: None };

@@ -313,15 +313,12 @@ impl System {
     /// that are cubic polynomials.
     #[inline]
     pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
-        self.sum_over_loads(
-            |load| work(load, (from, to), [1.0; 2]),
-            |item| self.feedback.work(item, from, to),
-        )
+        self.sum_over_loads(|load| load.work(from, to), |item| self.feedback.work(item, from, to))
     }
 
     /// Power of loads [W].
     pub fn power_of_loads(&self, at: &Kinematics) -> f64 {
-        self.sum_over_loads(|load| power(load, at), |item| self.feedback.power(item, at))
+        self.sum_over_loads(|load| load.power(at), |item| self.feedback.power(item, at))
     }
 
     /// Sum over loads, first of every kind, and over those scaled by signals.

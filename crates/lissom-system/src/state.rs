@@ -35,6 +35,11 @@ impl State {
     pub fn touch_energy(&self) -> Energy {
         Energy { strain: self.touches.iter().map(|touch| touch.energy).sum(), ..Energy::default() }
     }
+
+    /// Power that what moves the surfaces of touches supplies [W].
+    pub fn touch_power(&self) -> f64 {
+        self.touches.iter().map(|touch| touch.supplied).sum()
+    }
 }
 
 impl Clone for State {

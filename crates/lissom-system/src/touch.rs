@@ -52,6 +52,8 @@ pub struct Touch {
     pub impact_velocity: f64,
     /// Elastic energy [J].
     pub energy: f64,
+    /// Power that what moves its surface supplies [W].
+    pub supplied: f64,
     /// Whether the next step continues it: not if the parts depart.
     pub continues: bool,
 }

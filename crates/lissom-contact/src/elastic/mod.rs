@@ -25,7 +25,7 @@ use self::resistance::ContactResistance;
 use crate::geometry::gap::{Matrix3x6, Pair, side_by_side};
 use crate::geometry::hollow::Hollow;
 use crate::law::Coulomb;
-use crate::point::{ContactPoint, PointMotion};
+use crate::point::{ContactPoint, MovingSurface, PointMotion};
 use crate::reading::{ContactElement, ContactReading};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::force_law::Response;
@@ -33,6 +33,7 @@ use lissom_mechanics::elements::{
     Capabilities, Contribution, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns,
     add_block,
 };
+use lissom_mechanics::evaluation::capabilities::Load;
 use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use lissom_mechanics::joints::frame_pair::RelativeMotion;
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
@@ -289,6 +290,12 @@ impl Contact {
         self
     }
 
+    /// The same with a surface that moves along itself.
+    pub fn with_surface(mut self, surface: MovingSurface) -> Self {
+        self.point.surface = Some(surface);
+        self
+    }
+
     pub(super) fn name(&self) -> &str {
         &self.name
     }
@@ -516,7 +523,29 @@ impl Element for Contact {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), laws: Some(self), strain: Some(self), ..Capabilities::default() }
+        let load = self.point.surface.map(|_| self as &dyn Load);
+        Capabilities {
+            spring: Some(self),
+            laws: Some(self),
+            strain: Some(self),
+            load,
+            ..Capabilities::default()
+        }
+    }
+}
+
+/// What drives a moving surface works against its friction.
+impl Load for Contact {
+    fn power(&self, at: &Kinematics) -> f64 {
+        if self.is_apart(at) {
+            return 0.0;
+        }
+        let touch = self.touch(at);
+        (touch.force - touch.normal_force[0] * touch.at.gap.normal).dot(&touch.at.driven())
+    }
+
+    fn work(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        0.5 * (to.time - from.time) * (self.power(from) + self.power(to))
     }
 }
 

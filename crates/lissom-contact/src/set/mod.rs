@@ -4,7 +4,7 @@
 mod near_pairs;
 mod smallest_gap;
 
-use lissom_motion::Motion;
+use lissom_motion::{Motion, Vector3};
 
 pub use near_pairs::{NearPair, NearPairs};
 pub use smallest_gap::SmallestGap;
@@ -44,6 +44,8 @@ pub struct TouchLaw {
     pub impact: Impact,
     /// Coefficients of friction, if there is any.
     pub friction: Option<Coulomb>,
+    /// Surface of a part that moves along itself: of two parts which, and its velocity in the axes of the part's node [m/s].
+    pub surface: Option<(usize, Vector3)>,
 }
 
 /// A contact: every two of its parts may touch.
@@ -53,7 +55,7 @@ pub struct ContactRule {
     pub name: String,
     /// Its parts among those of the set, each once; of two parts the earlier one is the base.
     pub parts: Vec<usize>,
-    /// Law of its touches.
+    /// Law of its touches; a moving surface is that of the first part.
     pub law: TouchLaw,
     /// Young's modulus [Pa] and Poisson's ratio of both materials, if the elastic force follows from them and the curvatures.
     pub materials: Option<[[f64; 2]; 2]>,
@@ -88,10 +90,14 @@ impl ContactSet {
     ) -> Result<Option<Vec<PlacedMeeting>>, MeshError> {
         let [one, other] = parts.map(|part| &self.parts[part].solids);
         let rule = &self.rules[rule];
+        let surface = rule.law.surface.and_then(|(_, velocity)| {
+            let side = parts.iter().position(|part| *part == rule.parts[0])?;
+            Some((side, velocity))
+        });
         let mut all = Vec::new();
         for solids in one.iter().flat_map(|one| other.iter().map(move |other| [one, other])) {
             let Some(found) = meetings(solids)? else { return Ok(None) };
-            let mut law = rule.law;
+            let mut law = TouchLaw { surface, ..rule.law };
             if let Some(materials) = rule.materials {
                 let curvature = solids.map(|solid| solid.form.curvature());
                 let [Some(one), Some(other)] = curvature else { return Ok(None) };

@@ -155,13 +155,12 @@ impl Simulation {
         let start = self.attempt.start(&self.state);
         let (scheme, end) = (&self.settings.scheme, &self.attempt.end);
         let Workspace { motions, multipliers, .. } = &*self.integrator.work;
+        let size = end.kinematics.time - start.kinematics.time;
         let work = match scheme.quadrature[..] {
             [] => StepWork::between(&self.system, start, end),
-            ref weights => {
-                let size = end.kinematics.time - start.kinematics.time;
-                StepWork::of_stages(&self.system, (weights, size), motions, multipliers)
-            }
+            ref weights => StepWork::of_stages(&self.system, (weights, size), motions, multipliers),
         };
+        let work = work.with_loads(size * end.touch_power());
         let (after, violation) = judge.examine((start, end), work, &self.energy_balance)?;
         (self.attempt.energy_balance, self.attempt.violation) = (after, violation);
         Ok(())

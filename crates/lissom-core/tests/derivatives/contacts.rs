@@ -10,6 +10,7 @@ use lissom_core::contact::geometry::gap::Pair;
 use lissom_core::contact::geometry::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
 use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::contact::law::Coulomb;
+use lissom_core::contact::point::MovingSurface;
 use lissom_core::elements::Contribution;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Freedoms, GROUND, Switch};
 use lissom_core::system::{Builder, State, System};
@@ -76,6 +77,8 @@ fn with_contact(
     let mut contact = Contact::new(frames, pair, law, friction);
     if let Some(resistance) = resistance {
         contact = contact.with_resistance(resistance);
+        let surface = MovingSurface { is_tip: seed.is_multiple_of(2), velocity: 20.0 * random.vector() };
+        contact = contact.with_surface(surface);
     }
     builder.add(contribution.with(contact));
     let (system, state) = builder.build(0.0).expect("valid");

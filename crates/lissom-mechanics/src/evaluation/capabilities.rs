@@ -4,6 +4,7 @@
 use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
+use super::work::{power, work};
 use crate::kinematics::{
     CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Stressed, Subject, Switch,
 };
@@ -49,6 +50,16 @@ pub trait Load: Element {
     /// [`Element::energy`], and dissipated energy is lost.
     fn is_active(&self) -> bool {
         true
+    }
+
+    /// Power that it supplies [W]. Default: that of all its forces.
+    fn power(&self, at: &Kinematics) -> f64 {
+        power(self, at)
+    }
+
+    /// Work that it supplies between two configurations [J]. Default: that of all its forces, which change linearly along the path.
+    fn work(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        work(self, (from, to), [1.0; 2])
     }
 
     /// Known breakpoints of its forces [s]. Default: none.

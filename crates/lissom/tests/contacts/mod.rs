@@ -11,4 +11,5 @@ mod rigid;
 mod rolling;
 mod shapes;
 mod stacks;
+mod surfaces;
 mod wheelset;

@@ -122,6 +122,8 @@ pub(crate) struct TouchPoint {
     pub(crate) nodes: [NodeId; 2],
     /// Whether the tip is the first part of the contact.
     is_reversed: bool,
+    /// Velocity that a moving surface gives a tip that sticks to it, relative to the base [m/s].
+    driven: Vector3,
     place: Place,
     size: f64,
     law: TouchLaw,
@@ -168,6 +170,10 @@ impl TouchPoint {
         (start, step): (&Kinematics, StepOfPoint),
         (place, before): (Place, Option<&Touch>),
     ) -> Self {
+        let driven = law.surface.map_or_else(Vector3::zeros, |(side, velocity)| {
+            let sign = if meeting.sides[0] == side { 1.0 } else { -1.0 };
+            sign * start.nodes[nodes[side]].frame.rotation.apply(&velocity)
+        });
         let nodes = meeting.sides.map(|side| nodes[side]);
         let Place { axes, arms, gap, .. } = place;
         let normal = axes.row(2).transpose();
@@ -222,6 +228,7 @@ impl TouchPoint {
             key,
             nodes,
             is_reversed: meeting.sides == [1, 0],
+            driven,
             place,
             size: step.size,
             law: *law,
@@ -252,13 +259,18 @@ impl TouchPoint {
         Self { place, ..*self }
     }
 
-    /// Velocity of the tip's point relative to the base's, in the axes of the point [m/s].
+    /// Velocity of the tip's point relative to the base's surface, in the axes of the point [m/s].
     pub(crate) fn velocity(&self, at: &Kinematics) -> Vector3 {
         let of = |k: usize| {
             let motion = &at.nodes[self.nodes[k]];
             motion.velocity_at(&motion.frame.rotation.apply_inverse(&self.place.arms[k]))
         };
-        self.place.axes * (of(1) - of(0))
+        self.place.axes * (of(1) - of(0)) - self.drift()
+    }
+
+    /// Velocity of a moving surface, in the axes of the point [m/s].
+    fn drift(&self) -> Vector3 {
+        (self.place.axes * self.driven).xy().push(0.0)
     }
 
     /// A force at another configuration of the point, along the axes of this one: its normal part remains along the normal, so that it has
@@ -346,7 +358,7 @@ impl TouchPoint {
         change
     }
 
-    /// d for the motion of both nodes in the step, from the `start`: displacements of the nodes, and rotations at the twists of the end.
+    /// d relative to a moving surface for the motion of both nodes in the step, from the `start`: displacements of the nodes, and rotations at the twists of the end.
     pub(crate) fn displacement(
         &self,
         start: &Kinematics,
@@ -358,7 +370,7 @@ impl TouchPoint {
             let shift = start.nodes[node].frame.rotation.apply(&changes[node].shift);
             shift + self.size * at.nodes[node].angular_velocity().cross(&self.place.arms[k])
         };
-        self.place.axes * (of(1) - of(0))
+        self.place.axes * (of(1) - of(0)) - self.size * self.drift()
     }
 
     /// The change of d by increments of both nodes in the axes of their bodies.
@@ -501,6 +513,7 @@ impl TouchPoint {
             is_sliding: !has_friction || state.slips,
             impact_velocity: self.impact_velocity,
             energy: self.energy(state),
+            supplied: tangential.dot(&self.drift()),
             continues: true,
         }
     }
@@ -560,7 +573,7 @@ mod tests {
         ];
         let compliance = Compliance { stiffness: 1e5, exponent };
         let friction = Some(Coulomb { sliding: 0.3, at_rest: 0.3, stribeck: 0.01 });
-        let law = TouchLaw { compliance, impact, friction };
+        let law = TouchLaw { compliance, impact, friction, surface: None };
         let rules = vec![ContactRule { name: "floor".to_owned(), parts: vec![0, 1], law, materials: None }];
         let set = ContactSet { parts, rules };
         let above = Motion::translation(Vector3::new(0.0, 0.0, 0.099));

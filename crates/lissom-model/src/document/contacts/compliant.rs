@@ -6,6 +6,8 @@ use lissom_contact::elastic::ContactFriction;
 use lissom_contact::law::Impact;
 use lissom_mechanics::compliance::{Compliance, MIN_RESTITUTION, RestitutionLaw};
 
+use lissom_motion::Vector3;
+
 use super::entry::{ContactLaw, Touching};
 use super::law;
 use super::parts::Parts;
@@ -24,6 +26,8 @@ pub struct CompliantLaw {
     pub friction: Option<ContactFriction>,
     /// Moments against rolling and spinning per normal force [m].
     pub resistance: [f64; 2],
+    /// Velocity of the base's surface along itself, in the axes of the base [m/s].
+    pub surface_velocity: Option<Vector3>,
 }
 
 pub(super) fn keys() -> Vec<Key> {
@@ -67,6 +71,12 @@ pub(super) fn keys() -> Vec<Key> {
         ),
     ];
     keys.extend(law::friction_keys());
+    keys.push(optional(
+        "surface_velocity",
+        Shape::Vector,
+        "m/s",
+        "velocity at which the surface of the base moves along itself, as a conveyor belt, in the axes of the base; requires `friction`",
+    ));
     keys.extend(
         [
             ("rolling_friction", "moment against rolling per normal force"),
@@ -84,10 +94,26 @@ pub(super) fn read(reader: &Reader<'_, '_>, parts: &Parts<'_>) -> Option<Touchin
         compliance: compliance(reader)?,
         impact: impact(reader)?,
         friction: law::friction(reader),
+        surface_velocity: surface_velocity(reader)?,
         resistance: [reader.number("rolling_friction")?.value, reader.number("torsional_friction")?.value],
     };
     law::check(reader, (own.compliance.as_ref().ok().copied(), own.friction.as_ref()))?;
     Some((between, others, ContactLaw::Compliant(own)))
+}
+
+/// A surface without friction drives nothing.
+#[expect(clippy::option_option, reason = "an error, or none")]
+fn surface_velocity(reader: &Reader<'_, '_>) -> Option<Option<Vector3>> {
+    let Some(node) = reader.node("surface_velocity") else { return Some(None) };
+    if !reader.has("friction") {
+        let message = format!("{} has `surface_velocity` without `friction`", reader.what);
+        return reader.context.fail(
+            node.span,
+            message,
+            "add `friction`: a surface drives by its friction alone",
+        );
+    }
+    reader.vector("surface_velocity").map(|vector| Some(vector.value))
 }
 
 fn compliance(reader: &Reader<'_, '_>) -> Option<Result<Compliance, [Located<String>; 2]>> {

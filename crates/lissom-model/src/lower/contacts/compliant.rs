@@ -6,6 +6,7 @@ use lissom_contact::elastic::resistance::ContactResistance;
 use lissom_contact::elastic::{Contact, ContactMotion, Dissipation};
 use lissom_contact::forms::PlacedSolid;
 use lissom_contact::law::Impact;
+use lissom_contact::point::MovingSurface;
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::kinematics::{DiscreteValueId, Subject};
@@ -48,6 +49,10 @@ pub(super) fn add(
         let resistance = ContactResistance::new(law.resistance, &own, &mut contribution);
         let mut contact = Contact::new(point.frames, point.pair, (compliance, dissipation), friction);
         contact = contact.with_name(name);
+        if let (Some(velocity), Some(side)) = (law.surface_velocity, point.of_first) {
+            let velocity = point.frames[side].offset.rotation.apply_inverse(&velocity);
+            contact = contact.with_surface(MovingSurface { is_tip: side == 1, velocity });
+        }
         if let Some(resistance) = resistance {
             contact = contact.with_resistance(resistance);
         }

@@ -32,6 +32,8 @@ pub(super) struct PointOfSolids<'d> {
     pub(super) pair: Arc<dyn Pair>,
     /// Base and tip.
     pub(super) frames: [CarriedFrame; 2],
+    /// Which of both frames is of the first part of the contact, if one is.
+    pub(super) of_first: Option<usize>,
     /// 1 if the tip is that of the contact, otherwise -1.
     pub(super) sign: f64,
     /// The parts in words, and the number of the point among theirs.
@@ -60,8 +62,10 @@ pub(super) fn points_of_solids<'d>(
             for Meeting { pair, sides, frames } in meetings_of(entry, solids)? {
                 let carried = |k: usize| CarriedFrame { node: nodes[sides[k]], offset: frames[k] };
                 let sign = if sides == [0, 1] { 1.0 } else { -1.0 };
+                let is_first = parts[0].value == entry.between[0].value;
+                let of_first = is_first.then(|| usize::from(sides == [1, 0]));
                 let (frames, parts) = ([0, 1].map(carried), words.join(" and "));
-                all.push(PointOfSolids { solids, pair, frames, sign, parts, number });
+                all.push(PointOfSolids { solids, pair, frames, of_first, sign, parts, number });
                 number += 1;
             }
         }

@@ -56,9 +56,10 @@ pub(super) fn add(
         })
     });
     let friction = law.friction.as_ref().map(|friction| friction.law);
+    let surface = law.surface_velocity.map(|velocity| (0, velocity));
     // The compliance of two materials depends on the curvatures of each pair.
     let own = law.compliance.as_ref().copied().unwrap_or(Compliance { stiffness: 1.0, exponent: 1.5 });
-    let law = TouchLaw { compliance: own, impact: law.impact, friction };
+    let law = TouchLaw { compliance: own, impact: law.impact, friction, surface };
     builder.contacts_mut().rules.push(ContactRule { name: name.clone(), parts, law, materials });
     Ok(())
 }

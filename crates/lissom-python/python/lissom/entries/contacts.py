@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ._entry import Count, Entry, Number, Table
+from ._entry import Count, Entry, Number, Table, Vector
 
 
 @dataclass(kw_only=True, slots=True)
@@ -31,6 +31,7 @@ class Contact(Entry):
         static_friction: coefficient at rest, not below `friction`; default: that of `friction`; a number > 0, or nothing.
         stribeck: sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 [m/s]; a number > 0, or nothing.
         deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
+        surface_velocity: velocity at which the surface of the base moves along itself, as a conveyor belt, in the axes of the base; requires `friction` [m/s]; three numbers, or nothing.
         rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
         torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
         stiffness_per_length: of a beam: normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
@@ -59,6 +60,7 @@ class Contact(Entry):
     static_friction: Number | None = None
     stribeck: Number | None = None
     deflection: Number | None = None
+    surface_velocity: Vector | None = None
     rolling_friction: Number | None = None
     torsional_friction: Number | None = None
     stiffness_per_length: Number | None = None

@@ -45,6 +45,8 @@ entry! {
     stribeck: f64 = "stribeck";
     /// Tangential deflection before it slips; default 1e-5 \[m\].
     deflection: f64 = "deflection";
+    /// Velocity at which the surface of the base moves along itself, as a conveyor belt, in the axes of the base; requires `friction` \[m/s\].
+    surface_velocity: [f64; 3] = "surface_velocity";
     /// Moment against rolling per normal force; default 0 \[m\].
     rolling_friction: f64 = "rolling_friction";
     /// Moment against spinning about the normal per normal force; default 0 \[m\].
