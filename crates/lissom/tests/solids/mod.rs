@@ -1,5 +1,6 @@
 //! Elastic solids in models: against closed forms, with every scheme, and what their messages say.
 
+mod contacts;
 mod dynamics;
 mod examples;
 mod meshes;

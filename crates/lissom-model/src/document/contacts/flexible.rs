@@ -1,4 +1,4 @@
-//! Contacts of beams and shells: along a beam, at the nodes of a shell, or where they are nearest.
+//! Contacts of flexible parts: along a beam, at the nodes of a shell or a solid, or where a beam or a shell is nearest.
 
 use lissom_contact::elastic::ContactFriction;
 use lissom_mechanics::compliance::Compliance;
@@ -22,6 +22,8 @@ pub enum FlexiblePart {
     Beam(Located<String>),
     /// A shell.
     Shell(Located<String>),
+    /// An elastic solid.
+    Solid(Located<String>),
 }
 
 /// Where a flexible part touches.
@@ -44,6 +46,8 @@ pub struct FlexibleLaw {
     pub base: Option<Located<String>>,
     /// Radii of base and tip, if given [m].
     pub radii: [Option<f64>; 2],
+    /// Of a solid: the set of nodes whose faces touch, otherwise all outer faces.
+    pub faces: Option<Located<String>>,
     /// Where they touch.
     pub way: Way,
     /// Normal force over the penetration, by the way: of all, per length or per area.
@@ -62,11 +66,12 @@ impl FlexiblePart {
             let name = context.entry_named(table, text, node, what)?;
             context.has(table, &name).then(|| Located::new(name, node.span))
         };
-        of("beams").map(Self::Beam).or_else(|| of("shells").map(Self::Shell))
+        let shell = || of("shells").map(Self::Shell);
+        of("beams").map(Self::Beam).or_else(shell).or_else(|| of("solids").map(Self::Solid))
     }
 
     pub(super) fn name(&self) -> &Located<String> {
-        let (Self::Beam(name) | Self::Shell(name)) = self;
+        let (Self::Beam(name) | Self::Shell(name) | Self::Solid(name)) = self;
         name
     }
 
@@ -74,6 +79,7 @@ impl FlexiblePart {
         match self {
             Self::Beam(_) => "a beam",
             Self::Shell(_) => "a shell",
+            Self::Solid(_) => "a solid",
         }
     }
 
@@ -81,7 +87,7 @@ impl FlexiblePart {
     pub(super) fn stiffness(&self) -> &'static str {
         match self {
             Self::Beam(_) => "stiffness_per_length",
-            Self::Shell(_) => "stiffness_per_area",
+            Self::Shell(_) | Self::Solid(_) => "stiffness_per_area",
         }
     }
 
@@ -91,7 +97,7 @@ impl FlexiblePart {
             Self::Beam(name) => {
                 Located::new(NodeReference::Beam { beam: name.value.clone(), fraction: 0.0 }, name.span)
             }
-            Self::Shell(name) => {
+            Self::Shell(name) | Self::Solid(name) => {
                 let place = MeshPlace::Set(ALL.to_owned());
                 Located::new(NodeReference::Mesh { part: name.value.clone(), place }, name.span)
             }
@@ -130,8 +136,15 @@ pub(super) fn keys_nearest() -> Vec<Key> {
 }
 
 pub(super) fn keys_nodes() -> Vec<Key> {
-    let words = "of a shell: normal force per area at a penetration of 1 m";
-    keys(required("stiffness_per_area", Shape::Positive, "N/m^(n+2)", words))
+    let words = "of a shell or a solid: normal force per area at a penetration of 1 m";
+    let mut keys = keys(required("stiffness_per_area", Shape::Positive, "N/m^(n+2)", words));
+    keys.push(optional(
+        "faces",
+        Shape::Text,
+        "",
+        "of a solid: set of nodes whose faces touch; default all outer faces",
+    ));
+    keys
 }
 
 pub(super) fn along(reader: &Reader<'_, '_>, parts: &Parts<'_>) -> Option<Touching> {
@@ -152,11 +165,16 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
     let tip = named("tip").filter(|tip| match tip {
         FlexiblePart::Beam(_) => way != Way::Nodes,
         FlexiblePart::Shell(_) => !matches!(way, Way::Along(_)),
+        FlexiblePart::Solid(_) => way == Way::Nodes,
     });
     let Some(tip) = tip else {
         let span = reader.node("tip")?.span;
         let message = format!("`tip` of {what} is not what touches in this way");
-        return context.fail(span, message, "`along` is for beams, `nodes` for shells, `nearest` for both");
+        return context.fail(
+            span,
+            message,
+            "`along` is for beams, `nodes` for shells and solids, `nearest` for beams and shells",
+        );
     };
     let (base, between) = match (named("base"), &tip) {
         (None, _) => {
@@ -173,7 +191,7 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
         }
         (Some(other), _) => {
             let message = format!("{what} is between two flexible parts");
-            let help = "shells touch bodies, point masses and the ground: clamp bodies with a `shape` to the other part, and write a contact for each";
+            let help = "shells and solids touch bodies, point masses and the ground: clamp bodies with a `shape` to the other part, and write a contact for each";
             return context.fail(other.name().span, message, help);
         }
     };
@@ -191,6 +209,16 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
         Way::Nodes => [None; 2],
         _ => [radius("base_radius", base.is_some(), "base")?, radius("radius", is_beam, "tip")?],
     };
+    let faces = if way == Way::Nodes && reader.has("faces") {
+        let set = reader.text("faces")?;
+        if !matches!(tip, FlexiblePart::Solid(_)) {
+            let message = format!("`faces` of {what} is for solids");
+            return context.fail(set.span, message, "remove it: a shell touches at all of its nodes");
+        }
+        Some(set.map(str::to_owned))
+    } else {
+        None
+    };
     let friction = law::friction(reader);
     let is_frictionless = base.is_some() || (is_beam && way == Way::Nearest);
     if friction.is_some() && is_frictionless {
@@ -203,6 +231,6 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
     let compliance = Compliance { stiffness, exponent };
     law::check(reader, (Some(compliance), friction.as_ref()))?;
     let dissipation = reader.number("dissipation")?.value;
-    let law = FlexibleLaw { tip, base, radii, way, compliance, dissipation, friction };
+    let law = FlexibleLaw { tip, base, radii, faces, way, compliance, dissipation, friction };
     Some((between, Vec::new(), ContactLaw::Flexible(law)))
 }

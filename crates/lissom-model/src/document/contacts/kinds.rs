@@ -69,7 +69,7 @@ pub(super) static KINDS: [ContactKind; 5] = [
     },
     ContactKind {
         word: "nodes",
-        summary: "A shell that touches at its nodes; the default with `stiffness_per_area`.",
+        summary: "A shell or an elastic solid that touches at its nodes; the default with `stiffness_per_area`.",
         own_keys: flexible::keys_nodes,
         instead: OF_FLEXIBLE,
         read: flexible::at_nodes,
@@ -92,7 +92,7 @@ impl ContactKind {
                 "tip",
                 Shape::Node,
                 "",
-                "the other part that may touch it; or the name of a beam or a shell",
+                "the other part that may touch it; or the name of a beam, a shell or a solid",
             ),
         ];
         keys.extend((self.own_keys)());

@@ -9,8 +9,11 @@ use lissom_mechanics::number::written;
 use lissom_system::Builder;
 
 use super::super::names::Names;
-use crate::document::{ContactEntry, Document, FlexibleLaw, FlexiblePart};
+use super::at_nodes::TouchingNodes;
+use crate::document::{ContactEntry, Document, FlexibleLaw, FlexiblePart, Way};
 use crate::outputs::contact_point::ContactPoint;
+use crate::reading::mesh_nodes::NodeSets;
+use crate::reading::node_reference::MeshPlace;
 use crate::text::report::Problem;
 
 /// A contact of a beam or a shell with another part.
@@ -33,7 +36,28 @@ impl OfFlexible<'_> {
                 let found = self.document.shell(&name.value).zip(names.meshes.shells.get(&name.value));
                 let found =
                     found.ok_or_else(|| self.fault(&format!("there is no shell `{}`", name.value), ""))?;
-                self.add_shell(found, names.node(&self.entry.between[0])?, builder)
+                let base = names.node(&self.entry.between[0])?;
+                match self.law.way {
+                    Way::Nodes => self.add_nodes(&TouchingNodes::of_shell(found.0, found.1), base, builder),
+                    _ => self.nearest_to_shell(found, base, builder),
+                }
+            }
+            FlexiblePart::Solid(name) => {
+                let found = names.meshes.solids.get(&name.value);
+                let found =
+                    found.ok_or_else(|| self.fault(&format!("there is no solid `{}`", name.value), ""))?;
+                let base = names.node(&self.entry.between[0])?;
+                let mesh = &found.mesh;
+                let faces = match &self.law.faces {
+                    None => (mesh.triangles.clone(), mesh.quadrilaterals.clone()),
+                    Some(set) => {
+                        let nodes = mesh.nodes_at(&name.value, &MeshPlace::Set(set.value.clone()));
+                        let nodes =
+                            nodes.map_err(|(message, help)| Problem::error(set.span, message).help(help))?;
+                        mesh.faces_in(&nodes)
+                    }
+                };
+                self.add_nodes(&TouchingNodes::of_solid(found, &faces), base, builder)
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Contacts: what each adds to the system, by its kind and by how contacts are solved.
 
+mod at_nodes;
 mod compliant;
 mod flexible;
 mod of_beams;

@@ -16,7 +16,7 @@ class Contact(Entry):
     Args:
         kind: its kind; default by its parts and keys; `"compliant"`, `"rigid"`, `"along"`, `"nearest"`, `"nodes"`, or nothing.
         base: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one; a node.
-        tip: the other part that may touch it; or the name of a beam or a shell; a node.
+        tip: the other part that may touch it; or the name of a beam, a shell or a solid; a node.
         others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
         rigid: older word for the kinds `rigid` and `compliant`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
@@ -38,7 +38,8 @@ class Contact(Entry):
         points: of a beam: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
         radius: of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal [m]; a number > 0, or nothing.
         base_radius: of a beam as base: its radius [m]; a number > 0, or nothing.
-        stiffness_per_area: of a shell: normal force per area at a penetration of 1 m [N/m^(n+2)]; a number > 0, or nothing.
+        stiffness_per_area: of a shell or a solid: normal force per area at a penetration of 1 m [N/m^(n+2)]; a number > 0, or nothing.
+        faces: of a solid: set of nodes whose faces touch; default all outer faces; a text, or nothing.
     """
 
     _table: ClassVar[str] = "contacts"
@@ -68,6 +69,7 @@ class Contact(Entry):
     radius: Number | None = None
     base_radius: Number | None = None
     stiffness_per_area: Number | None = None
+    faces: str | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -13,7 +13,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `base`: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one
-    /// - `tip`: the other part that may touch it; or the name of a beam or a shell
+    /// - `tip`: the other part that may touch it; or the name of a beam, a shell or a solid
     new(base: Node = "base", tip: Node = "tip")
     /// Its kind; default by its parts and keys.
     kind: words::Kind = "kind";
@@ -59,8 +59,10 @@ entry! {
     radius: f64 = "radius";
     /// Of a beam as base: its radius \[m\].
     base_radius: f64 = "base_radius";
-    /// Of a shell: normal force per area at a penetration of 1 m \[N/m^(n+2)\].
+    /// Of a shell or a solid: normal force per area at a penetration of 1 m \[N/m^(n+2)\].
     stiffness_per_area: f64 = "stiffness_per_area";
+    /// Of a solid: set of nodes whose faces touch; default all outer faces.
+    faces: String = "faces";
 }
 
 entry! {
