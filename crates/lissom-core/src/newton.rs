@@ -53,11 +53,11 @@ pub trait Descent {
     /// Norm of the residual at the current iterate, over its tolerance.
     fn residual(&mut self) -> f64;
 
-    /// Linearises at the current iterate, factorises, and moves along the correction to the least value of the function.
+    /// Moves along a correction to the least value of the function. Whether a tangent was factored for it.
     ///
     /// # Errors
     /// If a pivot vanishes.
-    fn descend(&mut self) -> Result<(), FactorError>;
+    fn descend(&mut self) -> Result<bool, FactorError>;
 
     /// Updates what was fixed while the iterations converged. Whether nothing has changed.
     fn settle(&mut self) -> bool;
@@ -327,9 +327,8 @@ pub fn descend<D: Descent>(system: &mut D) -> Result<Outcome, Failure> {
             return Err(Failure::NotConverged { iterations, correction });
         }
         if outcome.correction > 1.0 {
-            system.descend().map_err(Failure::from)?;
+            outcome.factorizations += usize::from(system.descend().map_err(Failure::from)?);
             outcome.iterations += 1;
-            outcome.factorizations += 1;
         }
     }
 }

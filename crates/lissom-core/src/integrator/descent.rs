@@ -1,9 +1,9 @@
 //! The corrections of a step with touches, see `contacts`.
 
-use lissom_motion::{Vector3, Vector6};
+use lissom_motion::{Matrix3, Vector3, Vector6};
 use lissom_solver::{FactorError, KINDS, SYMMETRIC};
 
-use super::contacts::{StepContacts, TouchState};
+use super::contacts::StepContacts;
 use super::equations::StepEquations;
 use crate::kinematics::{LOCKED, NodeId, Quantity};
 use crate::newton::Descent;
@@ -33,12 +33,13 @@ impl Descent for StepEquations<'_> {
             self.watch.begin(Phase::Rest);
         }
         let size = self.unbalance(&contacts);
+        contacts.unbalance = [contacts.unbalance[1], size];
         self.work.contacts = Some(contacts);
         size
     }
 
-    fn descend(&mut self) -> Result<(), FactorError> {
-        let Some(mut contacts) = self.work.contacts.take() else { return Ok(()) };
+    fn descend(&mut self) -> Result<bool, FactorError> {
+        let Some(mut contacts) = self.work.contacts.take() else { return Ok(false) };
         let result = self.correct_with(&mut contacts);
         self.work.contacts = Some(contacts);
         result
@@ -86,17 +87,36 @@ impl StepEquations<'_> {
         ((unbalance / (motion + floor)).sqrt() / contacts.tolerance).max(violation / round_off::ITERATION)
     }
 
-    fn correct_with(&mut self, contacts: &mut StepContacts) -> Result<(), FactorError> {
-        let layout = self.system.layout();
+    fn correct_with(&mut self, contacts: &mut StepContacts) -> Result<bool, FactorError> {
         self.work.newton.effort.iterations += 1;
-        self.work.newton.effort.factorizations += 1;
         self.work.newton.correction = 0.0;
-        if contacts.count_correction() {
+        let is_slow = contacts.count_correction();
+        let is_new = !contacts.keeps_tangent();
+        if is_new {
+            self.factor(contacts, is_slow)?;
+        }
+        self.solve_for_corrections();
+        // Larger corrections of rotations are cut to a radian, as with other schemes.
+        let most = self.measure_places().size.max(1.0).recip();
+        let share = self.share_of_correction(contacts).min(most);
+        let corrections = std::mem::take(&mut self.work.residuals);
+        self.apply(&corrections, -share);
+        self.work.residuals = corrections;
+        self.update_motions();
+        Ok(is_new)
+    }
+
+    /// Factors the tangent at the iterate, with that of elements and joints if it is to be renewed.
+    fn factor(&mut self, contacts: &mut StepContacts, is_renewed: bool) -> Result<(), FactorError> {
+        let layout = self.system.layout();
+        self.work.newton.effort.factorizations += 1;
+        if is_renewed {
             self.watch.begin(Phase::Linearisation);
             self.linearize_without_touches(contacts);
         }
         let is_first = contacts.corrections == 1;
-        if contacts.pattern.follow((layout, is_first), &contacts.near.points, &contacts.states) {
+        let points = &contacts.near.points;
+        if contacts.pattern.follow((layout, is_first), points, (points, &contacts.states)) {
             self.take_pattern(contacts);
         }
         let TangentValues::Real(mut values) = self.work.tangent.matrices.take_values(0) else {
@@ -111,14 +131,8 @@ impl StepEquations<'_> {
         self.watch.begin(Phase::Factorisation);
         self.work.tangent.renew(&contacts.pattern.structure, self.scaled.scale())?;
         self.note_scales();
-        self.solve_for_corrections();
-        // Larger corrections of rotations are cut to a radian, as with other schemes.
-        let most = self.measure_places().size.max(1.0).recip();
-        let share = self.share_of_correction(contacts).min(most);
-        let corrections = std::mem::take(&mut self.work.residuals);
-        self.apply(&corrections, -share);
-        self.work.residuals = corrections;
-        self.update_motions();
+        contacts.slopes.clear();
+        contacts.slopes.extend(contacts.states.iter().map(|state| state.slope));
         Ok(())
     }
 
@@ -161,8 +175,8 @@ impl StepEquations<'_> {
         };
         contacts.changes.clear();
         contacts.changes.extend(contacts.near.points.iter().map(|point| point.change(at, increment)));
-        let steepening = |(state, change): (&TouchState, &Vector3)| change.dot(&(state.slope * change));
-        let touches: f64 = contacts.states.iter().zip(&contacts.changes).map(steepening).sum();
+        let steepening = |(slope, change): (&Matrix3, &Vector3)| change.dot(&(slope * change));
+        let touches: f64 = contacts.slopes.iter().zip(&contacts.changes).map(steepening).sum();
         let rise = (-slope - touches).max(0.0);
         contacts.search(slope, rise)
     }

@@ -221,8 +221,8 @@ impl StepEquations<'_> {
     /// Solves for a correction of the velocities and the multipliers, in place of the right-hand side, with the slopes of the states.
     fn solve_velocities(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
         let layout = self.system.layout();
-        let StepContacts { impacts, pattern, .. } = &mut *contacts;
-        if pattern.follow((layout, false), &impacts.points, &impacts.states) {
+        let StepContacts { impacts, pattern, near, .. } = &mut *contacts;
+        if pattern.follow((layout, false), &near.points, (&impacts.points, &impacts.states)) {
             self.take_pattern(contacts);
         }
         let StepContacts { impacts, pattern, .. } = contacts;

@@ -201,6 +201,11 @@ impl Simulation {
         self.integrator.work.tangent.matrices.entries()
     }
 
+    /// Number of patterns of touching parts that this simulation has analysed.
+    pub fn pattern_analyses(&self) -> usize {
+        self.integrator.work.contacts.as_ref().map_or(0, |contacts| contacts.pattern.analyses)
+    }
+
     /// Largest change made to the given initial twists to satisfy the constraints [m/s, rad/s].
     pub fn velocity_correction(&self) -> f64 {
         self.origin.velocity_correction

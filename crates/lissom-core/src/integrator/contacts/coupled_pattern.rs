@@ -1,5 +1,5 @@
-//! The pattern of the tangent with the blocks of touching parts. It is analysed again only if two parts touch that it does not couple, so
-//! that a pile which settles keeps its analysis.
+//! The pattern of the tangent with the blocks of touching parts. It is analysed again only if two parts touch that it does not couple, and
+//! includes those with a small gap then, so that a pile which settles keeps its analysis.
 
 use std::sync::Arc;
 
@@ -9,10 +9,8 @@ use lissom_solver::{Pattern, Structure};
 use super::touch_point::{TouchPoint, TouchState};
 use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 
-/// Pairs in the pattern over those that touch from which it is reduced.
+/// Pairs in the pattern over those that touch or may soon, or over the nodes if these are more, from which it is reduced.
 const SURPLUS: f64 = 1.2;
-/// The same for few pairs.
-const FEW: usize = 8;
 
 /// Two nodes with unknowns, the first the smaller.
 type Couple = [NodeId; 2];
@@ -32,10 +30,12 @@ pub(crate) struct CoupledPattern {
     across: Vec<[Columns; 2]>,
     /// The same of the own block of each node.
     own: Vec<Columns>,
-    /// Those that touch at the present iterate.
-    touching: Vec<Couple>,
+    /// Those that touch, or may soon.
+    near: Vec<Couple>,
     /// Whether no solver has been made for it yet.
     is_new: bool,
+    /// How often it was analysed.
+    pub(crate) analyses: usize,
 }
 
 impl CoupledPattern {
@@ -48,8 +48,9 @@ impl CoupledPattern {
             couples: Vec::new(),
             across: Vec::new(),
             own: Vec::new(),
-            touching: Vec::new(),
+            near: Vec::new(),
             is_new: true,
+            analyses: 0,
         };
         alone.build(layout);
         alone
@@ -67,36 +68,36 @@ impl CoupledPattern {
         self.build(layout);
     }
 
-    /// Includes all points with a slope, and forgets pairs that do not touch `if_many` of them. Whether a solver is to be made for the
-    /// pattern.
+    /// Includes all touches, and forgets pairs that are not near `if_many` of them. Whether a solver is to be made for the pattern.
     pub(crate) fn follow(
         &mut self,
         (layout, if_many): (&Layout, bool),
-        points: &[TouchPoint],
-        states: &[TouchState],
+        near: &[TouchPoint],
+        (points, states): (&[TouchPoint], &[TouchState]),
     ) -> bool {
-        let is_free = |node: NodeId| layout.rows_of_node(node).iter().any(|row| *row != LOCKED);
-        self.touching.clear();
-        for (point, _) in points.iter().zip(states).filter(|(_, state)| has_slope(state)) {
-            let [one, other] = point.nodes;
-            if is_free(one) && is_free(other) {
-                self.touching.push(if one < other { [one, other] } else { [other, one] });
-            }
-        }
-        self.touching.sort_unstable();
-        self.touching.dedup();
-        let most = SURPLUS * self.touching.len() as f64 + FEW as f64;
-        let is_known = self.touching.iter().all(|couple| self.couples.binary_search(couple).is_ok());
-        let has_many = self.couples.len() as f64 > most;
-        if !is_known || if_many && has_many {
+        let couple = |point: &TouchPoint| {
+            point.nodes.iter().all(|node| is_free(layout, *node)).then(|| ordered(point.nodes))
+        };
+        let touching = || {
+            let closed = points.iter().zip(states).filter(|(_, state)| has_slope(state));
+            closed.filter_map(|(point, _)| couple(point))
+        };
+        let is_known = touching().all(|own| self.couples.binary_search(&own).is_ok());
+        if !is_known || if_many {
+            self.near.clear();
+            self.near.extend(near.iter().filter(|point| point.is_close).filter_map(couple));
+            self.near.extend(touching());
+            sort(&mut self.near);
             // Fill costs more than an analysis.
+            let has_many = self.couples.len() as f64 > SURPLUS * self.near.len().max(self.own.len()) as f64;
             if has_many {
                 self.couples.clear();
             }
-            self.couples.extend_from_slice(&self.touching);
-            self.couples.sort_unstable();
-            self.couples.dedup();
-            self.build(layout);
+            if has_many || !is_known {
+                self.couples.extend_from_slice(&self.near);
+                sort(&mut self.couples);
+                self.build(layout);
+            }
         }
         std::mem::take(&mut self.is_new)
     }
@@ -129,6 +130,7 @@ impl CoupledPattern {
             [columns_of(&pattern, [one, other]), columns_of(&pattern, [other, one])]
         }));
         self.structure.pattern = Arc::new(pattern);
+        self.analyses += 1;
         self.is_new = true;
     }
 
@@ -148,32 +150,36 @@ impl CoupledPattern {
         }
         for (point, state) in points.iter().zip(states).filter(|(_, state)| has_slope(state)) {
             let gradients = [0, 1].map(|side| point.gradient(side, at));
-            let couple = self.couple_of(point.nodes);
-            for (right, &to) in point.nodes.iter().enumerate() {
-                let weighted = factor * state.slope * gradients[right];
-                for (left, &from) in point.nodes.iter().enumerate() {
-                    let block = gradients[left].tr_mul(&weighted);
-                    let columns = if from == to {
-                        self.own.get(from.index()).copied().flatten()
-                    } else {
-                        couple.and_then(|index| self.across[index][usize::from(from > to)])
-                    };
-                    if let Some(columns) = columns {
-                        add_columns(&columns, &block, out);
-                    } else {
-                        let rows = [from, to].map(|node| layout.rows_of_node(node));
-                        add_entries(pattern, rows, &block, out);
+            let across = self.couples.binary_search(&ordered(point.nodes)).map(|index| self.across[index]);
+            // Slopes are symmetric.
+            for sides in [[0, 0], [1, 1], [0, 1]] {
+                let nodes @ [from, to] = sides.map(|side| point.nodes[side]);
+                if !nodes.iter().all(|node| is_free(layout, *node)) {
+                    continue;
+                }
+                let block = gradients[sides[0]].tr_mul(&(factor * state.slope * gradients[sides[1]]));
+                let mut add = |nodes: [NodeId; 2], columns: Columns, block: &Matrix6| {
+                    let rows = nodes.map(|node| layout.rows_of_node(node));
+                    match columns {
+                        Some(columns) => add_columns(&columns, block, out),
+                        None => add_entries(pattern, rows, block, out),
                     }
+                };
+                if from == to {
+                    add(nodes, self.own[from.index()], &block);
+                } else {
+                    let turned = usize::from(from > to);
+                    let across = across.unwrap_or_default();
+                    add(nodes, across[turned], &block);
+                    add([to, from], across[1 - turned], &block.transpose());
                 }
             }
         }
     }
+}
 
-    /// Index of the pair of two nodes.
-    fn couple_of(&self, [one, other]: [NodeId; 2]) -> Option<usize> {
-        let couple = if one < other { [one, other] } else { [other, one] };
-        self.couples.binary_search(&couple).ok()
-    }
+fn is_free(layout: &Layout, node: NodeId) -> bool {
+    layout.rows_of_node(node).iter().any(|row| *row != LOCKED)
 }
 
 /// Whether a displacement changes the force.
@@ -192,6 +198,16 @@ fn columns_of(pattern: &Pattern, [rows, columns]: [&[u32; 6]; 2]) -> Columns {
         *first = pattern.position(rows[0] as usize, column as usize)? as u32;
     }
     Some(found)
+}
+
+/// Two nodes, the smaller first.
+fn ordered([one, other]: [NodeId; 2]) -> Couple {
+    if one < other { [one, other] } else { [other, one] }
+}
+
+fn sort(couples: &mut Vec<Couple>) {
+    couples.sort_unstable();
+    couples.dedup();
 }
 
 fn add_columns(columns: &[u32; 6], block: &Matrix6, out: &mut [f64]) {

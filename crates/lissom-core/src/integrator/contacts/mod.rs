@@ -18,7 +18,7 @@ pub(crate) mod impact;
 mod near_points;
 mod touch_point;
 
-use lissom_motion::Vector3;
+use lissom_motion::{Matrix3, Vector3};
 use lissom_solver::SolverKind;
 
 use self::coupled_pattern::CoupledPattern;
@@ -36,6 +36,8 @@ pub(crate) const FOLLOWING: usize = 15;
 const MAX_ROUNDS: usize = 10;
 /// Relative change of bounds below which they are accurate.
 const BOUND_CHANGE: f64 = 1e-3;
+/// Ratio of residuals below which a tangent serves again.
+const KEPT: f64 = 0.5;
 /// Share of its value at the start that the slope along a correction may have at its end without a search.
 const WHOLE: f64 = 0.1;
 /// The same at the end of a search.
@@ -54,6 +56,10 @@ pub(crate) struct StepContacts {
     pub(crate) changes: Vec<Vector3>,
     pub(crate) pattern: CoupledPattern,
     pub(crate) smooth: SmoothTangent,
+    /// Slopes of the touches in the tangent that this step factored last; empty without one.
+    pub(crate) slopes: Vec<Matrix3>,
+    /// Norms of the residual before the last correction and now.
+    pub(crate) unbalance: [f64; 2],
     /// Residual in SI, by row.
     pub(crate) residual: Vec<f64>,
     /// Velocities after impacts.
@@ -85,6 +91,8 @@ impl StepContacts {
             changes: Vec::new(),
             pattern: CoupledPattern::new(system.layout(), system.structure()),
             smooth: SmoothTangent { values, diagonal: Vec::new() },
+            slopes: Vec::new(),
+            unbalance: [0.0; 2],
             residual: vec![0.0; system.layout().size()],
             impacts: Impacts::new(system),
             corrections: 0,
@@ -104,6 +112,14 @@ impl StepContacts {
         self.corrections > FOLLOWING
     }
 
+    /// Whether the last tangent serves again: every touch is as it was, closed or open and sticking or slipping, and the residual falls
+    /// as fast as it does with new tangents, which also omit that bounds follow the normal forces.
+    pub(crate) fn keeps_tangent(&self) -> bool {
+        let [before, now] = self.unbalance;
+        let is_same = |(slope, state): (&Matrix3, &TouchState)| form_of(slope) == form_of(&state.slope);
+        !self.slopes.is_empty() && now < KEPT * before && self.slopes.iter().zip(&self.states).all(is_same)
+    }
+
     /// Finds the points at which parts may touch in a step of `size` [s], part of a `planned` one [s], from the `start`, which may be that of
     /// the motion.
     pub(crate) fn begin(
@@ -114,6 +130,7 @@ impl StepContacts {
     ) {
         (self.corrections, self.rounds) = (0, 0);
         self.smooth.diagonal.clear();
+        self.slopes.clear();
         self.near.begin(system, (start, is_first), [size, planned]);
     }
 
@@ -141,7 +158,12 @@ impl StepContacts {
 
     /// Updates what was fixed while the iterations converged. Whether nothing has changed.
     pub(crate) fn is_settled(&mut self, (from, motion): (&State, &StageMotion), size: f64) -> bool {
-        !self.near.has_left(from, motion, size) && !self.has_new_bounds()
+        if self.near.has_left(from, motion, size) {
+            // Other points.
+            self.slopes.clear();
+            return false;
+        }
+        !self.has_new_bounds()
     }
 
     /// Fixes the bounds of friction anew, if they were fixed. Whether they have changed.
@@ -199,6 +221,11 @@ impl StepContacts {
             Some(Touch { continues, energy, ..touch })
         }));
     }
+}
+
+/// Whether a touch with this slope is closed, and whether it sticks.
+fn form_of(slope: &Matrix3) -> [bool; 2] {
+    [slope[(2, 2)] > 0.0, slope[(0, 0)] == slope[(1, 1)] && slope[(0, 1)] == 0.0]
 }
 
 /// Share of a correction at which the slope `at` along it vanishes, which is `slope` at its start.

@@ -15,9 +15,8 @@ use crate::system::{State, System, Touch, TouchKey};
 
 /// Allowed travel over the expected one: that at the velocity and acceleration of the start, or the one that was too long.
 const TRAVEL_SHARE: f64 = 1.3;
-
-/// Path over the radius of a part from which it is followed.
-const SHORT: f64 = 0.01;
+/// Distance over the radius of a part: longer paths are followed, and parts with a smaller gap may touch soon.
+pub(super) const SHORT: f64 = 0.01;
 /// Path over the radius from which a step ends at the first touch.
 const LONG: f64 = 0.1;
 /// Shares of a step between which it is divided.

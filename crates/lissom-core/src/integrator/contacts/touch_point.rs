@@ -24,9 +24,10 @@
 //! A touch that appears with a penetration, as where a corner changes its face, has no energy: its relief δ is this penetration. The same
 //! holds for a penetration that jumps.
 
-use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
+use lissom_motion::{Matrix3, Motion, Vector3, Vector6, skew};
 use nalgebra::Vector2;
 
+use super::near_points::SHORT;
 use crate::contact::forms::Meeting;
 use crate::contact::geometry::gap::Matrix3x6;
 use crate::contact::law::Impact;
@@ -124,6 +125,8 @@ pub(crate) struct TouchPoint {
     is_reversed: bool,
     /// Velocity that a moving surface gives a tip that sticks to it, relative to the base [m/s].
     driven: Vector3,
+    /// Whether the parts may touch soon.
+    pub(crate) is_close: bool,
     place: Place,
     size: f64,
     law: TouchLaw,
@@ -229,6 +232,7 @@ impl TouchPoint {
             nodes,
             is_reversed: meeting.sides == [1, 0],
             driven,
+            is_close: gap < SHORT * step.radius,
             place,
             size: step.size,
             law: *law,
@@ -386,15 +390,13 @@ impl TouchPoint {
 
     /// ∂d by increments of one of both nodes, in the axes of its body.
     pub(crate) fn gradient(&self, side: usize, at: &Kinematics) -> Matrix3x6 {
-        let rotation = at.nodes[self.nodes[side]].frame.rotation.matrix();
+        let rotation = &at.nodes[self.nodes[side]].frame.rotation;
         let sign = if side == 1 { 1.0 } else { -1.0 };
+        let axes = sign * self.place.axes * rotation.matrix();
+        let arm = rotation.apply_inverse(&self.place.arms[side]);
         let mut all = Matrix3x6::zeros();
-        for row in 0..3 {
-            let axis = self.place.axes.row(row).transpose();
-            all.fixed_view_mut::<1, 3>(row, 0).copy_from(&(sign * axis.transpose() * rotation));
-            let moment = self.place.arms[side].cross(&axis);
-            all.fixed_view_mut::<1, 3>(row, 3).copy_from(&(sign * moment.transpose() * rotation));
-        }
+        all.fixed_columns_mut::<3>(0).copy_from(&axes);
+        all.fixed_columns_mut::<3>(3).copy_from(&(axes * skew(&-arm)));
         all
     }
 
