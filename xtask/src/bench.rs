@@ -42,6 +42,8 @@ struct Measured {
     name: String,
     unknowns: usize,
     report: RunReport,
+    /// Patterns of touching parts that were analysed.
+    analyses: usize,
     /// Processor time of the steps [s].
     steps: f64,
     /// Increase of the peak memory of the process in bytes.
@@ -95,9 +97,9 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), BenchError> {
     Ok(())
 }
 
-const HEADING: &str = "| scene | unknowns | steps | iterations per step | tangents | µs per step | \
+const HEADING: &str = "| scene | unknowns | steps | iterations per step | tangents | analyses | µs per step | \
 evaluation | linearisation | factorisation | solve | rest | output | start [s] | \
-fastest peer [µs] | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+fastest peer [µs] | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 fn fastest(scene: &Scene, overrides: &[Override], repeat: usize) -> Result<Measured, BenchError> {
     let mut best = run(scene, overrides)?;
@@ -131,6 +133,7 @@ fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
     Ok(Measured {
         name: scene.name.clone(),
         unknowns: system.layout().size(),
+        analyses: session.simulation().pattern_analyses(),
         steps: share * report.solving.as_secs_f64(),
         report,
         bytes,
@@ -178,10 +181,11 @@ fn line(measured: &Measured) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "| `{name}` | {unknowns} | {} | {:.2} | {} | {} | {} | {} | {} | {} | {} | {} | {start:.3} | {} | {} |",
+        "| `{name}` | {unknowns} | {} | {:.2} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {start:.3} | {} | {} |",
         totals.steps,
         totals.newton_iterations as f64 / count,
         totals.factorizations,
+        measured.analyses,
         digits(per_step),
         share(evaluation),
         share(linearisation),

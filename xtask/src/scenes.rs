@@ -73,6 +73,7 @@ fn of_family(family: &str, size: usize) -> Option<String> {
         "aluminium-cubic" => Some(beam(&ALUMINIUM, size, 3)),
         "loops" => Some(loops(size)),
         "beam-net" => Some(beam_net(size)),
+        "pile" => Some(pile(size)),
         _ => None,
     }
 }
@@ -230,6 +231,38 @@ fn beam(of: &Round, elements: usize, order: usize) -> String {
         _ => (0.02, 20),
     };
     text.generalized_alpha("1e-3", end, every)
+}
+
+/// Balls of 0.5 kg that fall into a box for one second, in layers that are shifted irregularly.
+fn pile(balls: usize) -> String {
+    const RADIUS: f64 = 0.05;
+    let side = (balls as f64).cbrt().round().max(1.0) as usize;
+    let mut text = Text::new("Balls fall into a box and rest in the end.", &format!("Pile of {balls} balls"));
+    let wall = 1.1 * RADIUS * side as f64;
+    let plane = |normal: &str, x: f64, y: f64| {
+        format!("    {{ kind = \"plane\", normal = \"{normal}\", position = [{x:?}, {y:?}, 0] }},\n")
+    };
+    let walls = [("z", 0.0, 0.0), ("x", -wall, 0.0), ("-x", wall, 0.0), ("y", 0.0, -wall), ("-y", 0.0, wall)];
+    let walls = walls.map(|(normal, x, y)| plane(normal, x, y)).concat();
+    text.add(format_args!("gravity = [0, 0, -9.81]\n\n[ground]\nshape = [\n{walls}]\n"));
+    for ball in 0..balls {
+        let aside = |rate: f64| 0.04 * (rate * (ball + 1) as f64).sin();
+        let across = |index: usize, rate: f64| 2.1 * (index as f64 - 0.5 * (side - 1) as f64) + aside(rate);
+        let [x, y] = [across(ball % side, 12.9898), across(ball / side % side, 78.233)];
+        let z = 2.3 * (ball / (side * side)) as f64 + 1.58 + aside(37.719);
+        let [x, y, z] = [x, y, z].map(|place| RADIUS * place);
+        text.add(format_args!(
+            "\n[bodies.b{ball}]\nmass = 0.5236\ninertia = {{ sphere = {RADIUS} }}\nshape = {{ sphere = {RADIUS} }}\n\
+             position = [{x:.6}, {y:.6}, {z:.6}]\n",
+        ));
+    }
+    let others: Vec<String> = (1..balls).map(|ball| format!("\"b{ball}\"")).collect();
+    text.add(format_args!(
+        "\n[contacts.pile]\nbase = \"ground\"\ntip = \"b0\"\nothers = [{}]\nstiffness = 1e6\ndissipation = 0.3\n\
+         friction = 0.4\n\n[analysis]\nkind = \"dynamics\"\nscheme = \"backward-euler\"\nstep = 1e-3\nend = 1\n",
+        others.join(", "),
+    ));
+    text.0
 }
 
 /// The tip crank of the examples with as many cubic elements as make 24 intervals between nodes.
@@ -392,7 +425,7 @@ mod tests {
 
     #[test]
     fn every_scene_is_a_model() {
-        for name in KEPT {
+        for name in KEPT.iter().chain(&["pile-12"]) {
             let scene = scene(name).unwrap();
             let model = lissom::Model::from_text(&scene.name, &scene.text);
             model.document().unwrap_or_else(|report| panic!("{name}: {}", report.render(false)));
