@@ -6,7 +6,7 @@ use lissom_motion::{Motion, Vector3};
 
 use super::Solid;
 use crate::geometry::surfaces::{
-    Cuboid, HalfSpace, HeightField, Mesh, MeshError, Outline, Polygon, Ring, Rod, Surface,
+    Cuboid, HalfSpace, HeightField, Mesh, MeshError, Outline, Polygon, Ring, Rod, Rounded, Surface,
 };
 
 /// Points of a beam may be this far apart over the radius of what they touch: 30°.
@@ -93,27 +93,30 @@ impl Form {
         }
     }
 
-    /// Its surface, that of a box moved inwards by `inset` [m]; none where the distance from it is not known.
+    /// Its surface, that of a box, a hull or a cylinder with edges of this radius [m]; none where the distance from it is not known.
     ///
     /// # Errors
     /// If it is a mesh that encloses no solid.
-    pub fn surface(&self, inset: f64) -> Result<Option<Arc<dyn Surface>>, MeshError> {
+    pub fn surface(&self, rounding: f64) -> Result<Option<Arc<dyn Surface>>, MeshError> {
         let found: Arc<dyn Surface> = match self {
             Self::HalfSpace => Arc::new(HalfSpace),
             Self::Solid(Solid::Box(sides)) => {
-                Arc::new(Cuboid { half_sides: sides.map(|side| 0.5 * side - inset) })
+                Arc::new(Cuboid { half_sides: sides.map(|side| 0.5 * side - rounding) })
             }
             Self::Solid(Solid::Tube { outer, inner, length, .. }) => {
-                Arc::new(Ring { radii: [*inner, *outer], half_length: 0.5 * length })
+                Arc::new(Ring { radii: [*inner, *outer - rounding], half_length: 0.5 * length - rounding })
             }
             Self::Solid(_) => return Ok(self.rod().map(|rod| -> Arc<dyn Surface> { Arc::new(rod) })),
             Self::Outline(outline) => outline.clone(),
             Self::Polygon(polygon) => polygon.clone(),
+            Self::Hull(mesh) if rounding > 0.0 => Arc::new(mesh.inset(rounding)?),
             Self::Hull(mesh) => mesh.clone(),
             Self::HeightField(field) => field.clone(),
             Self::Mesh(own) => Arc::new(Mesh::new(&own.points, &own.triangles)?),
         };
-        Ok(Some(found))
+        let is_rounded =
+            rounding > 0.0 && matches!(self, Self::Hull(_) | Self::Solid(Solid::Box(_) | Solid::Tube { .. }));
+        Ok(Some(if is_rounded { Arc::new(Rounded { inner: found, radius: rounding }) } else { found }))
     }
 
     /// A sphere or a capsule as a rod along the third axis.

@@ -16,7 +16,7 @@ use crate::geometry::surfaces::MeshError;
 type Row = (&'static [FormKind], FormKind, Parts, Option<Parts>);
 
 /// Forms that touch, every two of them once. Edges that cross touch once: those of one of both are parts.
-const PAIRS: [Row; 18] = [
+const PAIRS: [Row; 21] = [
     (&[Plane, Sphere, Capsule, Cylinder, Tube, Box], Sphere, Parts::Middle, None),
     (&[Hull, Polygon, Outline, Mesh, HeightField], Sphere, Parts::Middle, None),
     (&[Plane], Capsule, Parts::Ends, None),
@@ -25,17 +25,20 @@ const PAIRS: [Row; 18] = [
     (&[Box], Capsule, Parts::Ends, Some(Parts::Edges)),
     (&[Plane], Cylinder, Parts::Rims, None),
     (&[Plane], Tube, Parts::Rims, None),
+    (&[Box, Hull], Cylinder, Parts::Round, None),
+    (&[Cylinder], Cylinder, Parts::Round, Some(Parts::Rims)),
     // Rollers, whose axes are parallel to those of the prisms.
     (&[Polygon, Outline], Cylinder, Parts::Middle, None),
     (&[Polygon, Outline], Tube, Parts::Middle, None),
     (&[Plane], Box, Parts::Corners, None),
     (&[Box, Hull], Box, Parts::Edges, Some(Parts::Corners)),
     (&[Plane], Hull, Parts::Corners, None),
+    (&[Hull], Hull, Parts::Edges, Some(Parts::Corners)),
     (&[Plane], Polygon, Parts::Corners, None),
     (&[Polygon], Polygon, Parts::Corners, Some(Parts::Corners)),
     (&[Outline], Polygon, Parts::Corners, Some(Parts::Curve)),
     (&[Plane, Outline], Outline, Parts::Curve, None),
-    (&[Plane], Ellipsoid, Parts::Whole, None),
+    (&[Plane, Sphere, Capsule, Cylinder, Box, Hull], Ellipsoid, Parts::Whole, None),
     (&[Plane], Mesh, Parts::Corners, None),
 ];
 
@@ -51,7 +54,7 @@ fn found(forms: [FormKind; 2]) -> Option<(&'static Row, usize)> {
 /// The parts with which two forms touch, in words; none if that is not available.
 pub fn parts_between(forms: [FormKind; 2]) -> Option<String> {
     let ((.., parts, back), _) = found(forms)?;
-    let back = back.filter(|back| back != parts);
+    let back = back.filter(|back| back != parts && *parts != Parts::Round);
     let words: Vec<&str> = std::iter::once(*parts).chain(back).map(Parts::words).collect();
     Some(words.join(" and "))
 }
@@ -78,10 +81,11 @@ pub fn meetings(solids: [&PlacedSolid; 2]) -> Result<Option<Vec<Meeting>>, MeshE
     let mut ways = vec![([base, 1 - base], *parts)];
     ways.extend(back.map(|back| ([1 - base, base], back)));
     ways.sort_by_key(|(sides, _)| *sides);
+    let is_rounded = back.is_some() || matches!(parts, Parts::Round | Parts::Whole);
     let mut all = Vec::new();
     for (sides, parts) in ways {
         let [base, tip] = sides.map(|side| solids[side]);
-        let edges = [base, tip].map(|own| back.map_or(0.0, |_| edge_rounding(&own.form)));
+        let edges = [base, tip].map(|own| if is_rounded { edge_rounding(&own.form) } else { 0.0 });
         let found = touching(&base.form, (&tip.form, parts), edges)?.into_iter();
         let of = |(pair, place)| Meeting { pair, sides, frames: [base.frame, tip.frame * place] };
         all.extend(found.map(of));

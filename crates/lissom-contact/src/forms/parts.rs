@@ -7,10 +7,10 @@ use lissom_motion::{Motion, Rotation, Vector3};
 use super::{Form, Solid};
 use crate::geometry::curves::{Curve, Segment};
 use crate::geometry::gap::Pair;
-use crate::geometry::pairs::{CurveOnSurface, EllipsoidOnPlane, PointOnSurface, RimOnPlane};
-use crate::geometry::surfaces::{Mesh, MeshError};
+use crate::geometry::pairs::{CurveOnSurface, EllipsoidsOnSurface, PointOnSurface};
+use crate::geometry::surfaces::{Mesh, MeshError, Surface};
 
-/// Radius of the edges of boxes and outlines where both solids have edges, of the shortest side: edges that cross then have a direction
+/// Radius of edges and rims where both solids have some, of the shortest side: edges that cross then have a direction
 /// between them, and faces of one width, flush with each other, touch.
 const EDGE_ROUNDING: f64 = 0.02;
 
@@ -25,13 +25,15 @@ pub(super) enum Parts {
     Axis,
     /// Corners of a box, a hull or an outline; of a mesh those of its hull.
     Corners,
-    /// Edges of a box.
+    /// Edges of a box or a hull.
     Edges,
     /// Rims of a cylinder.
     Rims,
+    /// Rims and crowned side of a cylinder.
+    Round,
     /// A smooth outline.
     Curve,
-    /// An ellipsoid, on a plane.
+    /// An ellipsoid.
     Whole,
 }
 
@@ -44,15 +46,18 @@ impl Parts {
             Self::Corners => "corners",
             Self::Edges => "edges",
             Self::Rims => "both rims",
+            Self::Round => "side and rims",
             Self::Curve => "curve",
         }
     }
 }
 
-/// Radius of the edges of a box or an outline where both solids have edges [m]; zero for other forms.
+/// Radius of the edges or rims of a form where both solids have some [m]; zero for forms without, and of tubes.
 pub(super) fn edge_rounding(form: &Form) -> f64 {
     match form {
         Form::Solid(Solid::Box(sides)) => EDGE_ROUNDING * sides.iter().copied().fold(f64::INFINITY, f64::min),
+        Form::Solid(Solid::Tube { outer, inner: 0.0, length, .. }) => EDGE_ROUNDING * length.min(2.0 * outer),
+        Form::Hull(mesh) => EDGE_ROUNDING * 2.0 * mesh.depth(),
         Form::Polygon(polygon) => EDGE_ROUNDING * polygon.shortest_side(),
         _ => 0.0,
     }
@@ -71,10 +76,13 @@ pub(super) fn touching(
     let own = if matches!(base, Form::Polygon(_)) { 0.0 } else { own };
     let Some(surface) = base.surface(own)? else { return Ok(Vec::new()) };
     let ball = |radius: f64| -> Arc<dyn Pair> {
-        Arc::new(PointOnSurface { rounding: own + radius, surface: surface.clone() })
+        Arc::new(PointOnSurface { rounding: radius, surface: surface.clone() })
     };
     let line = |curve: Arc<dyn Curve>, radius: f64| -> Arc<dyn Pair> {
-        Arc::new(CurveOnSurface { curve, rounding: own + radius, surface: surface.clone() })
+        Arc::new(CurveOnSurface { curve, rounding: radius, surface: surface.clone() })
+    };
+    let sum = |semi_axes, (radius, depth): (f64, f64)| -> Arc<dyn Pair> {
+        Arc::new(EllipsoidsOnSurface { semi_axes, rounding: radius, depth, surface: surface.clone() })
     };
     let along = |height: f64| Motion::translation(height * Vector3::z());
     let one = |pair: Arc<dyn Pair>| vec![(pair, Motion::IDENTITY)];
@@ -95,17 +103,39 @@ pub(super) fn touching(
         (Parts::Edges, Form::Solid(Solid::Box(sides))) => {
             edges(sides, round).map(|(edge, frame)| (line(Arc::new(edge), round), frame)).collect()
         }
-        (Parts::Rims, Form::Solid(Solid::Tube { outer, length, .. })) => {
-            let rim: Arc<dyn Pair> = Arc::new(RimOnPlane { radius: *outer, rounding: 0.0 });
-            let half = (0.5 * length - RimOnPlane::inset(*outer)).max(0.0);
-            [-1.0, 1.0].map(|side| (rim.clone(), along(side * half))).into()
+        (Parts::Edges, Form::Hull(mesh)) => {
+            let edge = |[from, to]: [Vector3; 2]| {
+                let half = 0.5 * (to - from);
+                (line(Arc::new(Segment::new(half.norm())), round), aligned(0.5 * (from + to), half))
+            };
+            mesh.edges(round).into_iter().map(edge).collect()
+        }
+        (Parts::Rims | Parts::Round, Form::Solid(Solid::Tube { outer, length, .. })) => {
+            let radius = outer - round;
+            let rim = EllipsoidsOnSurface::rim(radius);
+            let half = (0.5 * length - round - rim[2]).max(0.0);
+            let rim = sum(vec![rim], (round, 2.0 * outer));
+            let mut all: Vec<Touching> = [-1.0, 1.0].map(|side| (rim.clone(), along(side * half))).into();
+            if parts == Parts::Round && half > 0.0 {
+                let side = EllipsoidsOnSurface::side(radius, half);
+                all.push((sum(side, (round, 2.0 * outer)), Motion::IDENTITY));
+            }
+            all
         }
         (Parts::Curve, Form::Outline(outline)) => one(line(Arc::new(outline.curve().clone()), 0.0)),
         (Parts::Whole, Form::Solid(Solid::Ellipsoid(axes))) => {
-            one(Arc::new(EllipsoidOnPlane { semi_axes: *axes }))
+            one(sum(vec![*axes], (0.0, 2.0 * axes.iter().copied().fold(f64::INFINITY, f64::min))))
         }
         _ => Vec::new(),
     })
+}
+
+/// Axes at a position, the third of which is along a direction.
+fn aligned(position: Vector3, direction: Vector3) -> Motion {
+    let along = direction.normalize() * 1.0_f64.copysign(direction.z);
+    let axis = Vector3::z().cross(&along);
+    let turn = axis.try_normalize(0.0).unwrap_or_default() * axis.norm().atan2(along.z);
+    Motion::new(Rotation::exponential(&turn), position)
 }
 
 /// The corners of a form with their radii, at most `inset` [m], by which the faces of boxes and outlines are moved inwards.

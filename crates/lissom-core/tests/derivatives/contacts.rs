@@ -7,7 +7,7 @@ use lissom_core::contact::elastic::resistance::ContactResistance;
 use lissom_core::contact::elastic::{Contact, ContactFriction, Dissipation};
 use lissom_core::contact::geometry::curves::Segment;
 use lissom_core::contact::geometry::gap::Pair;
-use lissom_core::contact::geometry::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
+use lissom_core::contact::geometry::pairs::{CurveOnSurface, EllipsoidsOnSurface, PointOnSurface};
 use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::contact::law::Coulomb;
 use lissom_core::contact::point::MovingSurface;
@@ -26,6 +26,10 @@ pub(super) fn pairs() -> Vec<(Arc<dyn Pair>, Vector3)> {
     let segment = |surface: Arc<dyn Surface>| -> Arc<dyn Pair> {
         Arc::new(CurveOnSurface { curve: Arc::new(Segment::new(12.0)), rounding: 3.0, surface })
     };
+    let rim = |surface: Arc<dyn Surface>| -> Arc<dyn Pair> {
+        let semi_axes = vec![EllipsoidsOnSurface::rim(4.5)];
+        Arc::new(EllipsoidsOnSurface { semi_axes, rounding: 0.5, depth: 9.0, surface })
+    };
     vec![
         (point(Arc::new(HalfSpace)), Vector3::new(0.2, 0.1, 2.3)),
         (point(Arc::new(Rod { half_length: 0.0, radius: 4.0 })), Vector3::new(3.0, 2.5, 3.5)),
@@ -33,7 +37,8 @@ pub(super) fn pairs() -> Vec<(Arc<dyn Pair>, Vector3)> {
         (point(Arc::new(Cuboid { half_sides: [2.0, 2.0, 15.0] })), Vector3::new(4.0, 3.5, 1.5)),
         (point(Arc::new(Ring { radii: [0.0, 16.0], half_length: 25.0 })), Vector3::new(14.0, 10.5, 2.0)),
         (point(Arc::new(Ring { radii: [16.0, 30.0], half_length: 25.0 })), Vector3::new(12.0, 8.0, 1.5)),
-        (Arc::new(RimOnPlane { radius: 4.5, rounding: 0.5 }), Vector3::new(1.0, 0.5, 2.0)),
+        (rim(Arc::new(HalfSpace)), Vector3::new(1.0, 0.5, 2.0)),
+        (rim(Arc::new(Rod { half_length: 15.0, radius: 4.0 })), Vector3::new(3.5, 3.5, 2.0)),
         (segment(Arc::new(HalfSpace)), Vector3::new(0.2, 0.1, 9.0)),
         (segment(Arc::new(Rod { half_length: 15.0, radius: 4.0 })), Vector3::new(3.5, 3.5, 2.0)),
         (segment(Arc::new(Cuboid { half_sides: [2.0, 2.0, 15.0] })), Vector3::new(3.0, 3.5, 1.5)),

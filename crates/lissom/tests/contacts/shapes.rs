@@ -242,8 +242,8 @@ fn wrong_shapes_are_rejected_with_a_remedy() {
         ("{ kind = \"ellipsoid\", semi_axes = [1, 0, 1] }", ball, "is not a valid solid"),
         (
             "{ kind = \"ellipsoid\", semi_axes = [1, 2, 1] }",
-            ball,
-            "an ellipsoid against a sphere is not available",
+            "{ kind = \"ellipsoid\", semi_axes = [1, 2, 1] }",
+            "an ellipsoid against an ellipsoid is not available",
         ),
         ("{ kind = \"hull\", points = [[0, 0], [1, 0]] }", ball, "points"),
         (

@@ -20,7 +20,7 @@ use crate::geometry::surfaces::{Distance, Surface};
 use lissom_mechanics::round_off;
 
 /// Corrections of t after which it is known to all digits: bisections halve an interval.
-const MAX_CORRECTIONS: usize = 60;
+pub(super) const MAX_CORRECTIONS: usize = 60;
 
 /// A curve of the tip and a surface of the base.
 #[derive(Clone, Debug)]

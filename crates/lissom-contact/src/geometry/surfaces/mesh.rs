@@ -114,6 +114,67 @@ impl Mesh {
         self.shape.indices()
     }
 
+    /// Points of its planes, each with its normal.
+    fn planes(&self) -> impl Iterator<Item = (Vector3, Vector3)> {
+        let start = |corners: &[u32; 3]| self.shape.vertices()[corners[0] as usize];
+        let starts = self.triangles().iter().map(start).map(|point| Vector3::new(point.x, point.y, point.z));
+        starts.zip(self.normals.iter().copied())
+    }
+
+    /// A hull with all faces moved inwards by `inset` [m]. Its corners are the faces of the hull of the reciprocal points
+    /// n/(n·(p - o) - inset) of its faces, about the centre of volume o.
+    ///
+    /// # Errors
+    /// If nothing remains.
+    pub fn inset(&self, inset: f64) -> Result<Self, MeshError> {
+        let corners: Vec<Vector3> = self.corners().collect();
+        let (mut centre, mut volume) = (Vector3::zeros(), 0.0);
+        for [a, b, c] in
+            self.triangles().iter().map(|own| own.map(|index| corners[index as usize] - corners[0]))
+        {
+            let share = a.dot(&b.cross(&c));
+            (centre, volume) = (centre + 0.25 * share * (a + b + c), volume + share);
+        }
+        let centre = corners[0] + centre / volume;
+        let reciprocal =
+            |(point, normal): (Vector3, Vector3)| normal / (normal.dot(&(point - centre)) - inset);
+        let dual = Self::hull(&distinct(self.planes().map(reciprocal)))?;
+        let corner = |(point, normal): (Vector3, Vector3)| normal / normal.dot(&point);
+        Self::hull(&distinct(dual.planes().map(corner)).iter().map(|own| own + centre).collect::<Vec<_>>())
+    }
+
+    /// Ends of the edges of a hull, moved inwards by `inset` [m] from its faces.
+    pub fn edges(&self, inset: f64) -> Vec<[Vector3; 2]> {
+        let corners: Vec<Vector3> = self.corners().collect();
+        let sides = |[a, b, c]: [u32; 3]| [(a, b), (b, c), (c, a)];
+        let of = |(own, normal)| sides(own).map(|side| (side, normal));
+        let beside: HashMap<(u32, u32), Vector3> =
+            self.triangles().iter().copied().zip(self.normals.iter().copied()).flat_map(of).collect();
+        let mut all = Vec::new();
+        for (from, to) in self.triangles().iter().copied().flat_map(sides).filter(|(from, to)| from < to) {
+            let (one, other) = (beside[&(from, to)], beside[&(to, from)]);
+            let width = 1.0 + one.dot(&other);
+            // Triangles of one face have no edge between them.
+            if 2.0 - width < round_off::GIVEN || width < round_off::GIVEN {
+                continue;
+            }
+            let [from, to] = [from, to].map(|own| corners[own as usize] - inset / width * (one + other));
+            let mut range = [0.0_f64, 1.0];
+            for (point, normal) in self.planes() {
+                let (outside, slope) = (normal.dot(&(from - point)) + inset, normal.dot(&(to - from)));
+                if slope.abs() > round_off::OPERATIONS * self.size {
+                    let end = usize::from(slope > 0.0);
+                    let share = -outside / slope;
+                    range[end] = if end == 1 { range[1].min(share) } else { range[0].max(share) };
+                }
+            }
+            if range[1] - range[0] > round_off::GIVEN {
+                all.push(range.map(|share| from + share * (to - from)));
+            }
+        }
+        all
+    }
+
     /// Half the smallest thickness below the middle of a triangle [m].
     fn thickness(&self) -> f64 {
         let of = |(index, normal): (usize, &Vector3)| {
@@ -125,6 +186,17 @@ impl Mesh {
         };
         0.5 * self.normals.iter().enumerate().map(of).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Points without those that repeat others up to round-off.
+fn distinct(points: impl Iterator<Item = Vector3>) -> Vec<Vector3> {
+    let mut kept: Vec<Vector3> = Vec::new();
+    for point in points {
+        if kept.iter().all(|own| (own - point).norm() > round_off::POSITION * point.norm()) {
+            kept.push(point);
+        }
+    }
+    kept
 }
 
 impl fmt::Debug for Mesh {
@@ -196,6 +268,44 @@ impl Surface for Mesh {
             if is_within || closer() >= 0.5 * value - round_off::OPERATIONS * self.size {
                 visit(&Distance { value, normal: away / value, curvature: Matrix3::zeros() });
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The faces of the inset of a hull are those of the hull, moved inwards, and the edges of the hull end within its faces.
+    #[test]
+    fn an_inset_moves_all_faces_inwards() {
+        let random = |k: u32, of: f64| (1e4 * (f64::from(k) * of).sin()).fract();
+        let point = |k: u32| Vector3::new(random(k, 0.754_877), random(k, 0.569_840), random(k, 0.430_159));
+        let cube = |k: u32| Vector3::from_fn(|axis, _| f64::from(k >> axis & 1) - 0.3);
+        let star = |k: u32| Vector3::ith(k as usize % 3, if k < 3 { 1.0 } else { -0.7 });
+        let clouds: [Vec<Vector3>; 4] = [
+            (0..8).map(cube).collect(),
+            (0..6).map(star).collect(),
+            (1..200).map(point).collect(),
+            (1..200).map(|k| 0.4 * point(k).normalize()).collect(),
+        ];
+        for cloud in clouds {
+            let hull = Mesh::hull(&cloud).expect("a hull");
+            let by = 0.04 * hull.depth();
+            let inset = hull.inset(by).expect("an inset");
+            let height = |own: Vector3| hull.planes().map(move |(point, normal)| normal.dot(&(own - point)));
+            let edges = hull.edges(by);
+            let ends = edges.iter().flatten().copied();
+            for place in inset.corners().chain(ends) {
+                let highest = height(place).fold(f64::NEG_INFINITY, f64::max);
+                assert!((highest + by).abs() < 1e-6 * by, "{highest} {by} {}", cloud.len());
+            }
+            for (point, normal) in hull.planes() {
+                let highest = inset.corners().map(|own| normal.dot(&(own - point)));
+                let highest = highest.fold(f64::NEG_INFINITY, f64::max);
+                assert!((highest + by).abs() < 1e-6 * by, "{highest} {by} {}", cloud.len());
+            }
+            assert!(cloud.len() > 8 || edges.len() == 12, "{}", edges.len());
         }
     }
 }

@@ -10,6 +10,7 @@ mod outline;
 mod polygon;
 mod ring;
 mod rod;
+mod rounded;
 
 pub use cuboid::Cuboid;
 pub use half_space::HalfSpace;
@@ -19,6 +20,7 @@ pub use outline::Outline;
 pub use polygon::Polygon;
 pub use ring::Ring;
 pub use rod::Rod;
+pub use rounded::Rounded;
 
 use lissom_motion::{Matrix3, Vector3};
 
