@@ -102,7 +102,7 @@ impl EllipsoidsOnSurface {
             }
             let limit =
                 |share: f64| at.distance.value + 1e-4 * share * travel.dot(&normal) + round_off::SUM * size;
-            let shares = (0..MAX_CORRECTIONS as i32).map(|k| 0.5_f64.powi(k));
+            let shares = std::iter::successors(Some(1.0), |share| Some(0.5 * share)).take(MAX_CORRECTIONS);
             let mut steps = shares.filter_map(|share| {
                 Some((share, of((at.direction + share * correction).try_normalize(0.0)?)))
             });
