@@ -38,7 +38,6 @@ pub(super) fn pairs() -> Vec<(Arc<dyn Pair>, Vector3)> {
         (point(Arc::new(Ring { radii: [0.0, 16.0], half_length: 25.0 })), Vector3::new(14.0, 10.5, 2.0)),
         (point(Arc::new(Ring { radii: [16.0, 30.0], half_length: 25.0 })), Vector3::new(12.0, 8.0, 1.5)),
         (rim(Arc::new(HalfSpace)), Vector3::new(1.0, 0.5, 2.0)),
-        (rim(Arc::new(Rod { half_length: 15.0, radius: 4.0 })), Vector3::new(3.5, 3.5, 2.0)),
         (segment(Arc::new(HalfSpace)), Vector3::new(0.2, 0.1, 9.0)),
         (segment(Arc::new(Rod { half_length: 15.0, radius: 4.0 })), Vector3::new(3.5, 3.5, 2.0)),
         (segment(Arc::new(Cuboid { half_sides: [2.0, 2.0, 15.0] })), Vector3::new(3.0, 3.5, 1.5)),
