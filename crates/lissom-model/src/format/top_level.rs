@@ -71,7 +71,12 @@ pub(crate) static TOP: [Top; 27] = [
         "Forces and moments that depend on the motion of their own points, along beams and on nodes.",
     ),
     top("ground", Holds::Table, false, "Solids that are fixed in space, for contacts and drawings."),
-    top("contacts", Holds::Entries, false, "Pairs of parts that may touch, by their shapes."),
+    top(
+        "contacts",
+        Holds::Entries,
+        false,
+        "Parts that may touch, by their shapes; `kind` may be omitted: it follows from parts and keys.",
+    ),
     top(
         "inputs",
         Holds::Values(Shape::Number),

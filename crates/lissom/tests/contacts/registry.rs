@@ -271,13 +271,14 @@ fn every_form_on_itself_stands_in_stacks_of_three() {
             for level in 0..3 {
                 let below = if level == 0 { "ground".to_owned() } else { format!("b{}", level - 1) };
                 let z = height * f64::from(2 * level + 1) + 1e-3 * f64::from(level + 1);
-                stack += &format!(
+                let own = format!(
                     "[bodies.b{level}]\nmass = 1\ninertia = [0.01, 0.01, 0.01]\nshape = {}\nposition = [0, 0, {z}]\n\
                      [joints.g{level}]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"b{level}\"\naxis = \"z\"\n\
                      [contacts.c{level}]\nbase = \"{below}\"\ntip = \"b{level}\"\n{law}\n\
                      [outputs.c{level}]\nkind = \"contact_force\"\nof = \"c{level}\"\n",
                     shape(kind)
                 );
+                stack += &own;
             }
             stack += tail
                 .split_once("[analysis]")

@@ -381,3 +381,101 @@ fn wrong_contacts_of_shells_are_rejected() {
     let report = refused(&format!("{of_bodies}\n[ground]\nshape = {{ kind = \"plane\" }}\n"));
     assert!(report.contains("of kind `compliant`, which has no `stiffness_per_area`"), "{report}");
 }
+
+/// A sheet that is laid on another one rests on it with its weight.
+#[test]
+fn a_sheet_rests_on_another_sheet() {
+    let text = r#"
+lissom = 1
+gravity = [0, 0, -10]
+[materials.plastic]
+E = 2e9
+nu = 0.3
+density = 7800
+[shells.lower]
+material = "plastic"
+thickness = 0.005
+damping = 1e-2
+corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+divisions = [6, 6]
+[joints.west]
+kind = "clamp"
+base = "ground"
+tip = "lower.west"
+[joints.east]
+kind = "clamp"
+base = "ground"
+tip = "lower.east"
+[shells.upper]
+material = "plastic"
+thickness = 0.005
+damping = 1e-2
+corners = [[0.3, 0.3, 0.006], [0.7, 0.3, 0.006], [0.7, 0.7, 0.006], [0.3, 0.7, 0.006]]
+divisions = [2, 2]
+[contacts.stack]
+base = "lower"
+tip = "upper"
+stiffness_per_area = 1e8
+dissipation = 1
+[outputs.stack]
+kind = "contact_force"
+of = "stack"
+[analysis]
+kind = "dynamics"
+end = 1.5
+scheme = "backward-euler"
+step = 1e-3
+"#;
+    // The scheme damps the first touches, which its warning reports.
+    let record = run(text, &[]);
+    let weight = 0.4 * 0.4 * 0.005 * 7800.0 * 10.0;
+    let force = last(&record, "stack", "f3");
+    assert!((force / weight - 1.0).abs() < 1e-4, "{force} {weight}");
+    assert!((last(&record, "stack", "x1") - 0.5).abs() < 1e-6);
+    let depth = last(&record, "stack", "gap");
+    assert!(depth < 0.0 && depth > -1e-5, "{depth}");
+}
+
+/// The turns of a soft spiral fall onto each other: they do not pass through each other, and no energy is gained.
+#[test]
+fn a_spiral_touches_itself() {
+    let text = r#"
+lissom = 1
+gravity = [0, 0, -10]
+[materials.soft]
+E = 2e8
+nu = 0.3
+density = 1000
+[shells.spring]
+material = "soft"
+thickness = 0.002
+surface = ["(0.2 - 0.08*u)*cos(4*pi*u)", "0.05*v", "(0.2 - 0.08*u)*sin(4*pi*u)"]
+divisions = [20, 1]
+damping = 1e-2
+[joints.end]
+kind = "clamp"
+base = "ground"
+tip = "spring.west"
+[contacts.turns]
+base = "spring"
+tip = "spring"
+stiffness_per_area = 1e7
+dissipation = 1
+[outputs.turns]
+kind = "contact_force"
+of = "turns"
+[outputs.energy]
+kind = "energy"
+[analysis]
+kind = "dynamics"
+end = 0.31
+relative_tolerance = 1e-3
+"#;
+    let record = run_without_warnings(text, &[]);
+    let largest = column(&record, "turns", "normal").iter().copied().fold(0.0, f64::max);
+    let deepest = column(&record, "turns", "gap").iter().copied().fold(0.0, f64::min);
+    assert!(largest > 0.3 && deepest > -5e-4, "{largest} {deepest}");
+    let rise =
+        column(&record, "energy", "total").windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    assert!(rise < 1e-5, "{rise:e}");
+}

@@ -42,8 +42,8 @@ pub enum Way {
 pub struct FlexibleLaw {
     /// The tip.
     pub tip: FlexiblePart,
-    /// The base, if it is a beam.
-    pub base: Option<Located<String>>,
+    /// The base, if it is a beam or a shell.
+    pub base: Option<FlexiblePart>,
     /// Radii of base and tip, if given [m].
     pub radii: [Option<f64>; 2],
     /// Of a solid: the set of nodes whose faces touch, otherwise all outer faces.
@@ -70,7 +70,7 @@ impl FlexiblePart {
         of("beams").map(Self::Beam).or_else(shell).or_else(|| of("solids").map(Self::Solid))
     }
 
-    pub(super) fn name(&self) -> &Located<String> {
+    pub(crate) fn name(&self) -> &Located<String> {
         let (Self::Beam(name) | Self::Shell(name) | Self::Solid(name)) = self;
         name
     }
@@ -187,11 +187,16 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
             return context.fail(own.span, message, "make two beams of it that share a node");
         }
         (Some(other @ FlexiblePart::Beam(_)), FlexiblePart::Beam(_)) => {
-            (Some(other.name().clone()), [other.node(), tip.node()])
+            let nodes = [other.node(), tip.node()];
+            (Some(other), nodes)
+        }
+        (Some(other @ FlexiblePart::Shell(_)), _) if way == Way::Nodes => {
+            let nodes = [other.node(), tip.node()];
+            (Some(other), nodes)
         }
         (Some(other), _) => {
             let message = format!("{what} is between two flexible parts");
-            let help = "shells and solids touch bodies, point masses and the ground: clamp bodies with a `shape` to the other part, and write a contact for each";
+            let help = "nodes of shells and solids touch shells: give `stiffness_per_area`; otherwise clamp bodies with a `shape` to the other part";
             return context.fail(other.name().span, message, help);
         }
     };
@@ -207,7 +212,10 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
     };
     let radii = match way {
         Way::Nodes => [None; 2],
-        _ => [radius("base_radius", base.is_some(), "base")?, radius("radius", is_beam, "tip")?],
+        _ => [
+            radius("base_radius", matches!(base, Some(FlexiblePart::Beam(_))), "base")?,
+            radius("radius", is_beam, "tip")?,
+        ],
     };
     let faces = if way == Way::Nodes && reader.has("faces") {
         let set = reader.text("faces")?;
@@ -220,7 +228,7 @@ fn read((reader, parts): (&Reader<'_, '_>, &Parts<'_>), stiffness: &str, way: Wa
         None
     };
     let friction = law::friction(reader);
-    let is_frictionless = base.is_some() || (is_beam && way == Way::Nearest);
+    let is_frictionless = is_beam && (base.is_some() || way == Way::Nearest);
     if friction.is_some() && is_frictionless {
         let key = if reader.has("friction") { "friction" } else { "static_friction" };
         let message = format!("friction of {what} is not available");

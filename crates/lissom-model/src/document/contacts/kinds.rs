@@ -69,7 +69,7 @@ pub(super) static KINDS: [ContactKind; 5] = [
     },
     ContactKind {
         word: "nodes",
-        summary: "A shell or an elastic solid that touches at its nodes; the default with `stiffness_per_area`.",
+        summary: "A shell or an elastic solid that touches bodies, or a shell, also itself, at its nodes; the default with `stiffness_per_area`.",
         own_keys: flexible::keys_nodes,
         instead: OF_FLEXIBLE,
         read: flexible::at_nodes,
@@ -86,7 +86,7 @@ impl ContactKind {
                 "base",
                 Shape::Node,
                 "",
-                "a body or point mass with a `shape`, or \"ground\"; or a beam if the tip is one",
+                "a body or point mass with a `shape`, or \"ground\"; or a beam if the tip is one; or a shell, with `stiffness_per_area`",
             ),
             required(
                 "tip",

@@ -83,13 +83,13 @@ impl OfFlexible<'_> {
         base: NodeId,
         builder: &mut Builder,
     ) -> Result<Vec<ContactPoint>, Problem> {
+        if own.nodes.is_empty() {
+            let help = "name a set of a whole face";
+            return Err(self.fault("no outer face has all its nodes in the set `faces`", help));
+        }
         let solids = solids(self.document, &self.entry.between[0].value);
         let help = "use fewer elements";
         self.check_count((own.nodes.len() * solids.len(), MAX_POINTS), "nodes and shapes", help)?;
-        if own.nodes.is_empty() {
-            return Err(self
-                .fault("no outer face has all its nodes in the set `faces`", "name a set of a whole face"));
-        }
         let smallest = own.nodes.iter().map(|(.., radius)| *radius).fold(f64::INFINITY, f64::min);
         let mut all = Vec::new();
         for solid in solids {

@@ -10,8 +10,9 @@ use lissom_system::Builder;
 
 use super::super::names::Names;
 use super::at_nodes::TouchingNodes;
-use crate::document::{ContactEntry, Document, FlexibleLaw, FlexiblePart, Way};
+use crate::document::{ContactEntry, Document, FlexibleLaw, FlexiblePart, Shell, Way};
 use crate::outputs::contact_point::ContactPoint;
+use crate::outputs::shell_nodes::BuiltShell;
 use crate::reading::mesh_nodes::NodeSets;
 use crate::reading::node_reference::MeshPlace;
 use crate::text::report::Problem;
@@ -33,20 +34,18 @@ impl OfFlexible<'_> {
                 self.add_beam((&name.value, line), names, builder)
             }
             FlexiblePart::Shell(name) => {
-                let found = self.document.shell(&name.value).zip(names.meshes.shells.get(&name.value));
-                let found =
-                    found.ok_or_else(|| self.fault(&format!("there is no shell `{}`", name.value), ""))?;
-                let base = names.node(&self.entry.between[0])?;
+                let found = self.shell(&name.value, names)?;
                 match self.law.way {
-                    Way::Nodes => self.add_nodes(&TouchingNodes::of_shell(found.0, found.1), base, builder),
-                    _ => self.nearest_to_shell(found, base, builder),
+                    Way::Nodes => {
+                        self.add_touching(&TouchingNodes::of_shell(found.0, found.1), names, builder)
+                    }
+                    _ => self.nearest_to_shell(found, names.node(&self.entry.between[0])?, builder),
                 }
             }
             FlexiblePart::Solid(name) => {
                 let found = names.meshes.solids.get(&name.value);
                 let found =
                     found.ok_or_else(|| self.fault(&format!("there is no solid `{}`", name.value), ""))?;
-                let base = names.node(&self.entry.between[0])?;
                 let mesh = &found.mesh;
                 let faces = match &self.law.faces {
                     None => (mesh.triangles.clone(), mesh.quadrilaterals.clone()),
@@ -57,9 +56,28 @@ impl OfFlexible<'_> {
                         mesh.faces_in(&nodes)
                     }
                 };
-                self.add_nodes(&TouchingNodes::of_solid(found, &faces), base, builder)
+                self.add_touching(&TouchingNodes::of_solid(found, &faces), names, builder)
             }
         }
+    }
+
+    /// Nodes on the shapes of a part, or on a shell.
+    fn add_touching(
+        &self,
+        own: &TouchingNodes,
+        names: &Names,
+        builder: &mut Builder,
+    ) -> Result<Vec<ContactPoint>, Problem> {
+        match &self.law.base {
+            Some(base) => self.nodes_on_shell(own, self.shell(&base.name().value, names)?, builder),
+            None => self.add_nodes(own, names.node(&self.entry.between[0])?, builder),
+        }
+    }
+
+    /// A shell as it was described and as it was built.
+    fn shell<'n>(&self, name: &str, names: &'n Names) -> Result<(&Shell, &'n BuiltShell), Problem> {
+        let found = self.document.shell(name).zip(names.meshes.shells.get(name));
+        found.ok_or_else(|| self.fault(&format!("there is no shell `{name}`"), ""))
     }
 
     /// Its law at a point with this share of a length or an area.

@@ -19,7 +19,7 @@ use lissom_system::Builder;
 use super::super::names::Names;
 use super::flexible::{OfFlexible, point, unknown};
 use super::pairs::solids;
-use crate::document::{ContactEntry, Document, Way};
+use crate::document::{ContactEntry, Document, FlexiblePart, Way};
 use crate::outputs::contact_point::ContactPoint;
 use crate::sections::Outline;
 use crate::text::report::Problem;
@@ -81,7 +81,7 @@ impl OfFlexible<'_> {
     ) -> Result<Vec<ContactPoint>, Problem> {
         let radius = radius(self.document, self.entry, (name, "radius"), self.law.radii[1])?;
         let tip = Tip { name, line, radius };
-        let Some(base) = &self.law.base else {
+        let Some(FlexiblePart::Beam(base)) = &self.law.base else {
             let node = names.node(&self.entry.between[0])?;
             return match self.law.way {
                 Way::Along(points) => self.along((node, tip), points, builder),

@@ -361,7 +361,7 @@ class ModelTables(ModelTree):
 
     @property
     def contacts(self) -> dict[str, Contact]:
-        """Pairs of parts that may touch, by their shapes."""
+        """Parts that may touch, by their shapes; `kind` may be omitted: it follows from parts and keys."""
         of: dict[str, Contact] = self._table("contacts")
         return of
 

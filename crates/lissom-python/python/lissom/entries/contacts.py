@@ -11,11 +11,11 @@ from ._entry import Count, Entry, Number, Table, Vector
 
 @dataclass(kw_only=True, slots=True)
 class Contact(Entry):
-    """Pairs of parts that may touch, by their shapes.
+    """Parts that may touch, by their shapes; `kind` may be omitted: it follows from parts and keys.
 
     Args:
         kind: its kind; default by its parts and keys; `"compliant"`, `"rigid"`, `"along"`, `"nearest"`, `"nodes"`, or nothing.
-        base: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one; a node.
+        base: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one; or a shell, with `stiffness_per_area`; a node.
         tip: the other part that may touch it; or the name of a beam, a shell or a solid; a node.
         others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
         rigid: older word for the kinds `rigid` and `compliant`; `true` or `false`, or nothing.

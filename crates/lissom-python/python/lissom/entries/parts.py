@@ -258,7 +258,7 @@ class Part(Entry):
         springs: Springs, dampers, friction, stops and latches; entries as in `[springs]`, or nothing.
         loads: Applied forces and moments, and those of actuators; entries as in `[loads]`, or nothing.
         local_loads: Forces and moments that depend on the motion of their own points, along beams and on nodes; entries as in `[local_loads]`, or nothing.
-        contacts: Pairs of parts that may touch, by their shapes; entries as in `[contacts]`, or nothing.
+        contacts: Parts that may touch, by their shapes; `kind` may be omitted: it follows from parts and keys; entries as in `[contacts]`, or nothing.
         inputs: Numbers that are set during a simulation by events or by the calling program, with their initial values; entries as in `[inputs]`, or nothing.
         signals: Named expressions of time, inputs, states and outputs; entries as in `[signals]`, or nothing.
         states: First-order states: numbers whose time derivative is an expression; entries as in `[states]`, or nothing.

@@ -12,7 +12,7 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `base`: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one
+    /// - `base`: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one; or a shell, with `stiffness_per_area`
     /// - `tip`: the other part that may touch it; or the name of a beam, a shell or a solid
     new(base: Node = "base", tip: Node = "tip")
     /// Its kind; default by its parts and keys.
