@@ -11,7 +11,7 @@ use crate::newton::Failure;
 use crate::saddle_point::TangentValues;
 use crate::system::TangentAssembler;
 
-/// Largest number of times in which offsets are corrected.
+/// Largest number of times in which offsets and bounds of friction are corrected.
 const MAX_OFFSETS: usize = 3;
 /// Largest number of shares of the rebounds.
 const MAX_SHARES: usize = 7;
@@ -51,9 +51,11 @@ impl StepEquations<'_> {
         let mut is_found = false;
         for count in 0..MAX_SHARES {
             contacts.impacts.begin(share);
-            for _ in 0..=MAX_OFFSETS {
-                self.converge(contacts)?;
-                if !contacts.impacts.correct_offsets(share) {
+            for round in 0..=MAX_OFFSETS {
+                self.converge(contacts, round == 0)?;
+                // Both at once: in a pile each change opens and closes touches, and costs ten corrections.
+                let impacts = &mut contacts.impacts;
+                if !(impacts.correct_offsets(share) | impacts.fix_bounds()) {
                     break;
                 }
             }
@@ -167,25 +169,21 @@ impl StepEquations<'_> {
         Ok(())
     }
 
-    /// Newton's method for the velocities with the present offsets.
-    fn converge(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
+    /// Newton's method for the velocities with the present offsets, and with the present bounds or ones that follow at first.
+    fn converge(&mut self, contacts: &mut StepContacts, follows: bool) -> Result<(), Failure> {
         let system = self.system;
         let (layout, pattern) = (system.layout(), &*system.structure().pattern);
         let mut corrections = 0;
-        let mut fixed = 0;
         loop {
             let (at, impacts) = (&self.work.motions[0].at, &mut contacts.impacts);
-            impacts.evaluate(layout, at, corrections <= FOLLOWING);
+            impacts.evaluate(layout, at, follows && corrections <= FOLLOWING);
             impacts.residual((pattern, layout), at);
             let unbalance = impacts.unbalance(pattern, layout);
             if !unbalance.is_finite() {
                 return Err(Failure::NotFinite { iterations: corrections });
             }
             if unbalance <= TOLERANCE {
-                if corrections <= FOLLOWING || fixed >= MAX_OFFSETS || !impacts.fix_bounds() {
-                    return Ok(());
-                }
-                fixed += 1;
+                return Ok(());
             }
             if corrections >= MAX_CORRECTIONS {
                 return Err(Failure::NotConverged { iterations: corrections, correction: unbalance });
