@@ -70,6 +70,15 @@ impl EllipsoidsOnSurface {
         vec![[wide - crown, wide - crown, bulge], [crown, crown, half * (1.0 - INCLINATION)]]
     }
 
+    /// φ of a plane, whose normal is the third axis: x₃ - Σ Sᵢ(m).
+    fn on_plane(&self, x: &Vector3, rotation: &Matrix3) -> Option<f64> {
+        let normal = rotation.row(2);
+        let support = |axes: &[f64; 3]| {
+            (0..3).map(|k| (axes[k] * normal[k]) * (axes[k] * normal[k])).sum::<f64>().sqrt()
+        };
+        self.surface.is_plane().then(|| x.z - self.semi_axes.iter().map(support).sum::<f64>())
+    }
+
     fn candidate(&self, direction: Vector3, x: &Vector3, rotation: &Matrix3) -> Candidate {
         let (mut point, mut bend) = (Vector3::zeros(), Matrix3::zeros());
         for axes in &self.semi_axes {
@@ -90,6 +99,9 @@ impl EllipsoidsOnSurface {
     fn nearest(&self, x: &Vector3, rotation: &Matrix3) -> Candidate {
         let of = |direction: Vector3| self.candidate(direction, x, rotation);
         let mut at = of(-rotation.tr_mul(&self.surface.distance(x).normal));
+        if self.surface.is_plane() {
+            return at;
+        }
         let size = self.reach();
         for _ in 0..MAX_CORRECTIONS {
             let normal = rotation.tr_mul(&at.distance.normal);
@@ -132,8 +144,13 @@ impl Pair for EllipsoidsOnSurface {
     fn gap(&self, x: &Vector3, rotation: &Matrix3) -> Gap {
         let Candidate { direction, point, bend, place, distance } = self.nearest(x, rotation);
         let Distance { value, normal, curvature } = distance;
-        let own = rotation.tr_mul(&curvature) * rotation;
-        let moved = rotation * flexibility(&own, &bend).transpose();
+        let on_plane = self.on_plane(x, rotation);
+        let (value, moved) = if let Some(value) = on_plane {
+            (value, *rotation)
+        } else {
+            let own = rotation.tr_mul(&curvature) * rotation;
+            (value, rotation * flexibility(&own, &bend).transpose())
+        };
         let place_by = side_by_side(&moved, &(moved * (bend * skew(&direction) - skew(&point))));
         let normal_by = curvature * place_by;
         Gap {
@@ -146,7 +163,8 @@ impl Pair for EllipsoidsOnSurface {
     }
 
     fn value(&self, x: &Vector3, rotation: &Matrix3) -> f64 {
-        self.nearest(x, rotation).distance.value - self.rounding
+        let value = self.on_plane(x, rotation);
+        value.unwrap_or_else(|| self.nearest(x, rotation).distance.value) - self.rounding
     }
 
     fn deepest(&self) -> f64 {
