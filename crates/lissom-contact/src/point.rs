@@ -2,7 +2,8 @@
 //!
 //! Legend: g gap, n normal and p point of contact in the axes of the base's solid, see [`geometry::gap`](crate::geometry::gap); (R, x)
 //! tip's frame in the base's, d = Rᵀ(p - x); (v, ω) relative twist in the tip's axes, c = v + ω × d, u = R c velocity of the tip's
-//! point, s = u - n (n·u) sliding velocity, of a surface that moves along itself at w on the base u - w in its place, on the tip u + R w; f force on the tip in the base's axes; η variation of the tip's frame.
+//! point, s = u - n (n·u) sliding velocity, of a surface that moves along itself at w with u - w on the base and u + R w on the tip in the
+//! place of u; f force on the tip in the base's axes; η variation of the tip's frame.
 //!
 //! ```text
 //! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)

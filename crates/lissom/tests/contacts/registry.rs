@@ -68,39 +68,43 @@ fn has_file(kind: FormKind) -> bool {
     kind == FormKind::Mesh
 }
 
+/// All pairs of forms that can be tested here, the second of which can move.
+fn all_pairs() -> Vec<[FormKind; 2]> {
+    let every = FormKind::ALL.iter().flat_map(|&base| FormKind::ALL.iter().map(move |&tip| [base, tip]));
+    // A body is no plane or height field, and which of two is the base does not matter.
+    let can_move = |kind: FormKind| !matches!(kind, FormKind::Plane | FormKind::HeightField);
+    every
+        .filter(|&[base, tip]| {
+            can_move(tip) && !has_file(base) && !has_file(tip) && parts_between([base, tip]).is_some()
+        })
+        .collect()
+}
+
 /// Every pair of the table rests with its weight: all solutions report one force and one point, elements and sets one penetration, rigid
 /// ones none; no energy is gained on the way. A new pair is examined as soon as it is in the table.
 #[test]
 fn every_pair_rests_with_every_solution() {
-    let mut pairs = 0;
-    for &base in FormKind::ALL {
-        for &tip in FormKind::ALL {
-            // A body is no plane or height field, and which of two is the base does not matter.
-            let can_move = !matches!(tip, FormKind::Plane | FormKind::HeightField);
-            if !can_move || has_file(base) || has_file(tip) || parts_between([base, tip]).is_none() {
-                continue;
-            }
-            pairs += 1;
-            let mut gaps = Vec::new();
-            for solution in [Solution::Elements, Solution::Rigid, Solution::Set] {
-                let what = format!("{} on {}, {solution:?}", tip.words(), base.words());
-                let record = run(&model([base, tip], solution), &[]);
-                let normal = last(&record, "all.normal");
-                let force = ["f1", "f2", "f3"].map(|axis| last(&record, &format!("all.{axis}")));
-                assert!((force[2] - WEIGHT).abs() < 1e-4 * WEIGHT, "{what}: {force:?}");
-                assert!(normal > (1.0 - 1e-4) * WEIGHT, "{what}: {normal}");
-                let energy = series(&record, "energy.total");
-                let rise = energy.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::NEG_INFINITY, f64::max);
-                assert!(rise < 1e-6 * energy[0], "{what}: {rise:e}");
-                gaps.push(last(&record, "all.gap"));
-            }
-            let [elements, rigid, set] = gaps[..] else { unreachable!("three solutions") };
-            let what = format!("{} on {}: {gaps:?}", tip.words(), base.words());
-            assert!(elements < 0.0 && (set - elements).abs() < 1e-3 * elements.abs(), "{what}");
-            assert!(rigid.abs() < 1e-9, "{what}");
+    let pairs = all_pairs();
+    assert!(pairs.len() > 30, "{} pairs", pairs.len());
+    for [base, tip] in pairs {
+        let mut gaps = Vec::new();
+        for solution in [Solution::Elements, Solution::Rigid, Solution::Set] {
+            let what = format!("{} on {}, {solution:?}", tip.words(), base.words());
+            let record = run(&model([base, tip], solution), &[]);
+            let normal = last(&record, "all.normal");
+            let force = ["f1", "f2", "f3"].map(|axis| last(&record, &format!("all.{axis}")));
+            assert!((force[2] - WEIGHT).abs() < 1e-4 * WEIGHT, "{what}: {force:?}");
+            assert!(normal > (1.0 - 1e-4) * WEIGHT, "{what}: {normal}");
+            let energy = series(&record, "energy.total");
+            let rise = energy.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::NEG_INFINITY, f64::max);
+            assert!(rise < 1e-6 * energy[0], "{what}: {rise:e}");
+            gaps.push(last(&record, "all.gap"));
         }
+        let [elements, rigid, set] = gaps[..] else { unreachable!("three solutions") };
+        let what = format!("{} on {}: {gaps:?}", tip.words(), base.words());
+        assert!(elements < 0.0 && (set - elements).abs() < 1e-3 * elements.abs(), "{what}");
+        assert!(rigid.abs() < 1e-9, "{what}");
     }
-    assert!(pairs > 30, "{pairs} pairs");
 }
 
 /// Restitution of impacts.
@@ -110,36 +114,22 @@ const RESTITUTION: f64 = 0.5;
 /// that corners and edges touch one after the other: elements then miss the restitution by 0.3 %.
 #[test]
 fn every_pair_rebounds_with_every_solution() {
-    for &base in FormKind::ALL {
-        for &tip in FormKind::ALL {
-            let can_move = !matches!(tip, FormKind::Plane | FormKind::HeightField);
-            if !can_move || has_file(base) || has_file(tip) || parts_between([base, tip]).is_none() {
-                continue;
-            }
-            for solution in [Solution::Elements, Solution::Rigid, Solution::Set] {
-                let what = format!("{} on {}, {solution:?}", tip.words(), base.words());
-                let text = model([base, tip], solution)
-                    .replace("dissipation = 5", &format!("restitution = {RESTITUTION}"))
-                    .replace("rigid = true", &format!("rigid = true\nrestitution = {RESTITUTION}"))
-                    .replace("gravity = [0, 0, -9.81]", "gravity = [0, 0, 0]")
-                    .replace("axis = \"z\"\n[contacts", "axis = \"z\"\nvelocity = -1\n[outputs.v]\nkind = \"velocity\"\nof = \"part\"\n[contacts")
-                    .replace("end = 2", "end = 0.3");
-                let velocity = last(&run(&text, &[]), "v.v3");
-                assert!((velocity - RESTITUTION).abs() < 3e-3, "{what}: {velocity}");
-            }
+    for [base, tip] in all_pairs() {
+        for solution in [Solution::Elements, Solution::Rigid, Solution::Set] {
+            let what = format!("{} on {}, {solution:?}", tip.words(), base.words());
+            let text = model([base, tip], solution)
+                .replace("dissipation = 5", &format!("restitution = {RESTITUTION}"))
+                .replace("rigid = true", &format!("rigid = true\nrestitution = {RESTITUTION}"))
+                .replace("gravity = [0, 0, -9.81]", "gravity = [0, 0, 0]")
+                .replace(
+                    "axis = \"z\"\n[contacts",
+                    "axis = \"z\"\nvelocity = -1\n[outputs.v]\nkind = \"velocity\"\nof = \"part\"\n[contacts",
+                )
+                .replace("end = 2", "end = 0.3");
+            let velocity = last(&run(&text, &[]), "v.v3");
+            assert!((velocity - RESTITUTION).abs() < 3e-3, "{what}: {velocity}");
         }
     }
-}
-
-/// All pairs of forms that can be tested here, the second of which can move.
-fn all_pairs() -> Vec<[FormKind; 2]> {
-    let every = FormKind::ALL.iter().flat_map(|&base| FormKind::ALL.iter().map(move |&tip| [base, tip]));
-    let can_move = |kind: FormKind| !matches!(kind, FormKind::Plane | FormKind::HeightField);
-    every
-        .filter(|&[base, tip]| {
-            can_move(tip) && !has_file(base) && !has_file(tip) && parts_between([base, tip]).is_some()
-        })
-        .collect()
 }
 
 /// Whether a form has a flat top.

@@ -114,6 +114,21 @@ pub(crate) enum Phase {
     Impact,
 }
 
+/// What the force of a touch in a step depends on beside its law.
+#[derive(Clone, Copy, Debug)]
+struct Response {
+    /// Dissipation factor a [s/m].
+    dissipation: f64,
+    /// δ [m].
+    relief: f64,
+    /// 1/(R h²), in the first step of an impact [N/m].
+    near_rigid: Option<f64>,
+    /// z.
+    bristle: [f64; 2],
+    /// K [N/m].
+    stiffness: f64,
+}
+
 /// A point at which two parts may touch in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TouchPoint {
@@ -130,16 +145,7 @@ pub(crate) struct TouchPoint {
     place: Place,
     size: f64,
     law: TouchLaw,
-    /// Dissipation factor a [s/m].
-    dissipation: f64,
-    /// δ [m].
-    relief: f64,
-    /// 1/(R h²), in the first step of an impact [N/m].
-    near_rigid: Option<f64>,
-    /// z.
-    bristle: [f64; 2],
-    /// K [N/m].
-    stiffness: f64,
+    response: Response,
     /// Inverse effective mass w [1/kg].
     pub(crate) compliance: f64,
     pub(crate) phase: Phase,
@@ -227,6 +233,13 @@ impl TouchPoint {
             let kept = (touch.stiffness / stiffness).min(1.0);
             carried_bristle(&axes, &(kept * Vector3::from(touch.bristle)))
         });
+        let response = Response {
+            dissipation: law.impact.factor(impact_velocity, is_unresolved.then_some(SETTLING)),
+            relief,
+            near_rigid: is_rigid.then_some((resolved / NEAR_RIGID).max(law.compliance.linear_stiffness())),
+            bristle,
+            stiffness,
+        };
         let mut found = Self {
             key,
             nodes,
@@ -236,11 +249,7 @@ impl TouchPoint {
             place,
             size: step.size,
             law: *law,
-            dissipation: law.impact.factor(impact_velocity, is_unresolved.then_some(SETTLING)),
-            relief,
-            near_rigid: is_rigid.then_some((resolved / NEAR_RIGID).max(law.compliance.linear_stiffness())),
-            bristle,
-            stiffness,
+            response,
             compliance: step.compliance,
             phase,
             is_unresolved,
@@ -306,7 +315,7 @@ impl TouchPoint {
 
     /// Gap at the end of the step beyond the penetration without force [m].
     pub(crate) fn distance_at(&self, state: &TouchState) -> f64 {
-        self.gap_at(state) + self.relief
+        self.gap_at(state) + self.response.relief
     }
 
     /// Gap at the configuration of the point [m].
@@ -338,8 +347,8 @@ impl TouchPoint {
     fn bristle_at(&self, state: &TouchState) -> Vector2<f64> {
         match (self.law.friction, state.slips) {
             (None, _) => Vector2::zeros(),
-            (Some(_), false) => Vector2::from(self.bristle) + state.displacement.xy(),
-            (Some(_), true) => -state.force.xy() / self.stiffness,
+            (Some(_), false) => Vector2::from(self.response.bristle) + state.displacement.xy(),
+            (Some(_), true) => -state.force.xy() / self.response.stiffness,
         }
     }
 
@@ -362,7 +371,8 @@ impl TouchPoint {
         change
     }
 
-    /// d relative to a moving surface for the motion of both nodes in the step, from the `start`: displacements of the nodes, and rotations at the twists of the end.
+    /// d, relative to a moving surface, for the motion of both nodes in the step, from the `start`: displacements of the nodes, and
+    /// rotations at the twists of the end.
     pub(crate) fn displacement(
         &self,
         start: &Kinematics,
@@ -416,15 +426,15 @@ impl TouchPoint {
 
     /// Normal force at a displacement, and its decrease by the displacement.
     fn normal(&self, displacement: f64) -> [f64; 2] {
-        let depth = -self.place.gap - self.relief - displacement;
+        let depth = -self.place.gap - self.response.relief - displacement;
         if depth <= 0.0 {
             return [0.0; 2];
         }
-        if let Some(stiffness) = self.near_rigid {
+        if let Some(stiffness) = self.response.near_rigid {
             return [stiffness * depth, stiffness];
         }
         let [force, by_depth, by_closing] =
-            self.law.compliance.force(depth, -displacement / self.size, self.dissipation);
+            self.law.compliance.force(depth, -displacement / self.size, self.response.dissipation);
         [force, by_depth + by_closing / self.size]
     }
 
@@ -444,14 +454,15 @@ impl TouchPoint {
         let mut state = TouchState { displacement: *displacement, ..TouchState::default() };
         state.force.z = normal;
         state.slope[(2, 2)] = by_normal;
-        let pull = [0, 1].map(|k| self.stiffness * (self.bristle[k] + displacement[k]));
-        add_friction(pull, self.stiffness, self.bound, &mut state);
+        let pull = [0, 1].map(|k| self.response.stiffness * (self.response.bristle[k] + displacement[k]));
+        add_friction(pull, self.response.stiffness, self.bound, &mut state);
         state
     }
 
     /// Whether both parts touch at a state.
     fn is_touching(&self, state: &TouchState) -> bool {
-        state.force.z > 0.0 || self.near_rigid.is_none() && self.gap_at(state) + self.relief < 0.0
+        state.force.z > 0.0
+            || self.response.near_rigid.is_none() && self.gap_at(state) + self.response.relief < 0.0
     }
 
     /// Gap at the end of the step [m].
@@ -464,9 +475,10 @@ impl TouchPoint {
         if !self.is_touching(state) {
             return 0.0;
         }
-        let depth = -self.gap_at(state) - self.relief;
-        let bristle = if self.near_rigid.is_some() { 0.0 } else { self.bristle_at(state).norm_squared() };
-        self.law.compliance.energy(depth) + 0.5 * self.stiffness * bristle
+        let depth = -self.gap_at(state) - self.response.relief;
+        let bristle =
+            if self.response.near_rigid.is_some() { 0.0 } else { self.bristle_at(state).norm_squared() };
+        self.law.compliance.energy(depth) + 0.5 * self.response.stiffness * bristle
     }
 
     /// The touch at the end of the step, if both parts touch then.
@@ -496,8 +508,11 @@ impl TouchPoint {
         let sign = if self.is_reversed { -1.0 } else { 1.0 };
         let gap = self.gap_at(state);
         let has_friction = self.law.friction.is_some();
-        let bristle =
-            if self.near_rigid.is_some() { Vector3::zeros() } else { self.bristle_at(state).push(0.0) };
+        let bristle = if self.response.near_rigid.is_some() {
+            Vector3::zeros()
+        } else {
+            self.bristle_at(state).push(0.0)
+        };
         let tangential = state.force.xy().push(0.0);
         Touch {
             key: self.key,
@@ -508,9 +523,9 @@ impl TouchPoint {
             friction: (sign * self.place.axes.tr_mul(&tangential)).into(),
             normal: state.force.z,
             bristle: self.place.axes.tr_mul(&bristle).into(),
-            stiffness: self.stiffness,
+            stiffness: self.response.stiffness,
             // A penetration that decreases needs no relief any more.
-            relief: self.relief.min(-gap).max(0.0),
+            relief: self.response.relief.min(-gap).max(0.0),
             slip: state.displacement.xy().norm() / self.size,
             is_sliding: !has_friction || state.slips,
             impact_velocity: self.impact_velocity,
