@@ -32,13 +32,13 @@ const tetrahedronSlopes = (p) => {
 const NEAR = Math.sqrt(1 / 3);
 const LOW = (5 - Math.sqrt(5)) / 20;
 const SHAPES = {
-  hexahedra: {
+  hexahedron: {
     points: HEXAHEDRON_CORNERS.map((corner) => corner.map((x) => NEAR * x)),
     slopes: hexahedronSlopes,
     weight: 1,
     shares: HEXAHEDRON.map((node) => HEXAHEDRON_CORNERS.map((corner) => corner.reduce((product, x, k) => product * 0.5 * (1 + (x * node[k]) / NEAR), 1))),
   },
-  tetrahedra: {
+  tetrahedron: {
     points: [0, 1, 2, 3].map((i) => [1, 2, 3].map((k) => (i === k ? 1 - 3 * LOW : LOW))),
     slopes: tetrahedronSlopes,
     weight: 1 / 24,
@@ -79,7 +79,7 @@ class SolidStresses {
     this.positions = new Float64Array(3 * this.nodes.length);
     this.quaternions = new Float64Array(4 * this.nodes.length);
     this.frame = -1;
-    this.elements = Object.entries(SHAPES).flatMap(([name, shape]) => atRest(solid[name] ?? [], shape, solid.positions));
+    this.elements = Object.entries(SHAPES).flatMap(([name, shape]) => atRest(solid.cells[name] ?? [], shape, solid.positions));
     const count = solid.nodes.length;
     this.sums = new Float64Array(6 * count);
     this.volumes = new Float64Array(count);

@@ -3,6 +3,7 @@
 //! This crate opens no file, prints nothing and reads no clock.
 
 pub mod beam;
+pub mod pressure;
 pub mod shell;
 pub mod solid;
 pub mod superelement;

@@ -490,7 +490,7 @@ pub(crate) mod tests {
             ("9, 2, 5, 3", "9, 2, , 3", "line 14: `` is no number of a node"),
             ("TYPE=S3,", "TYPE=S8R,", "line 13: elements of the type `S8R`; it has nodes on its sides"),
             ("TYPE=S3,", "TYPE=STRI65,", "line 13: elements of the type `STRI65`"),
-            ("TYPE=S3,", "TYPE=C3D6,", "line 13: elements of the type `C3D6`; mesh with C3D4"),
+            ("TYPE=S3,", "TYPE=C3D5,", "line 13: elements of the type `C3D5`; mesh with C3D4"),
             ("*BOUNDARY", "*INCLUDE, INPUT=a.inp", "line 36: *INCLUDE of another file; insert the text"),
             ("*NODE, NSET=all", "*NODE, INPUT=a.inp", "line 4: *NODE of another file"),
             ("*NODE, NSET=all", "*NODE, SYSTEM=C", "line 4: nodes in cylindrical"),

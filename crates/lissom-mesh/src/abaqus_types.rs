@@ -1,5 +1,6 @@
 //! Types of elements of Abaqus and CalculiX.
 
+use crate::kinds::SOLID_KINDS;
 use crate::mesh::MeshShape;
 
 /// What is done with elements of a type.
@@ -17,10 +18,6 @@ pub(crate) enum Treatment {
 
 const TRIANGLES: [&str; 5] = ["S3", "S3R", "S3RS", "STRI3", "M3D3"];
 const QUADRILATERALS: [&str; 7] = ["S4", "S4R", "S4RS", "S4RSW", "S4R5", "M3D4", "M3D4R"];
-const TETRAHEDRA: [&str; 2] = ["C3D4", "C3D4H"];
-const TETRAHEDRA_10: [&str; 7] = ["C3D10", "C3D10H", "C3D10M", "C3D10MH", "C3D10HS", "C3D10I", "C3D10T"];
-const HEXAHEDRA: [&str; 6] = ["C3D8", "C3D8R", "C3D8I", "C3D8H", "C3D8RH", "C3D8IH"];
-const HEXAHEDRA_20: [&str; 4] = ["C3D20", "C3D20R", "C3D20H", "C3D20RH"];
 const LINES: [&str; 9] = ["T3D2", "T3D2H", "B31", "B31R", "B31H", "B31OS", "B31OSH", "B33", "B33H"];
 /// Flat, rigid and surface elements: meshers such as Gmsh write surfaces as these.
 const OTHER_TRIANGLES: [&str; 4] = ["CPS3", "CPE3", "R3D3", "SFM3D3"];
@@ -34,17 +31,14 @@ const OF_SECOND_ORDER: [&str; 12] =
 /// What is done with a type, in upper case.
 pub(crate) fn treatment(name: &str) -> Treatment {
     use Treatment::{LeaveOut, Read, ReadAs, Reject};
-    let read: [(&[&str], MeshShape); 7] = [
+    let read: [(&[&str], MeshShape); 3] = [
         (&TRIANGLES, MeshShape::Triangle3),
         (&QUADRILATERALS, MeshShape::Quadrilateral4),
-        (&TETRAHEDRA, MeshShape::Tetrahedron4),
-        (&TETRAHEDRA_10, MeshShape::Tetrahedron10),
-        (&HEXAHEDRA, MeshShape::Hexahedron8),
-        (&HEXAHEDRA_20, MeshShape::Hexahedron20),
         (&LINES, MeshShape::Line2),
     ];
-    if let Some((_, shape)) = read.iter().find(|(names, _)| names.contains(&name)) {
-        return Read(*shape);
+    let solids = SOLID_KINDS.iter().flat_map(|kind| kind.abaqus.into_iter().zip(kind.shapes));
+    if let Some((_, shape)) = read.into_iter().chain(solids).find(|(names, _)| names.contains(&name)) {
+        return Read(shape);
     }
     if OTHER_TRIANGLES.contains(&name) {
         return ReadAs(MeshShape::Triangle3, "triangles of a surface");
@@ -60,9 +54,9 @@ pub(crate) fn treatment(name: &str) -> Treatment {
         return Reject("it has nodes on its sides: mesh with S3 and S4 instead");
     }
     if name.starts_with("C3D") {
-        return Reject("mesh with C3D4, C3D10, C3D8 or C3D20 instead");
+        return Reject("mesh with C3D4, C3D10, C3D6, C3D15, C3D8 or C3D20 instead");
     }
-    Reject("remove these elements, or mesh with S3, S4, C3D4, C3D10, C3D8 or C3D20")
+    Reject("remove these elements, or mesh with S3, S4, C3D4, C3D10, C3D6, C3D15, C3D8 or C3D20")
 }
 
 #[cfg(test)]
@@ -76,7 +70,7 @@ mod tests {
         assert_eq!(treatment("B31"), Treatment::Read(MeshShape::Line2));
         assert_eq!(treatment("SPRINGA"), Treatment::LeaveOut);
         assert!(matches!(treatment("CPS3"), Treatment::ReadAs(MeshShape::Triangle3, _)));
-        for name in ["S8R", "STRI65", "C3D6", "U1", ""] {
+        for name in ["S8R", "STRI65", "C3D5", "U1", ""] {
             assert!(matches!(treatment(name), Treatment::Reject(_)), "{name}");
         }
     }

@@ -56,6 +56,15 @@ impl MeshFaultKind {
         }
     }
 
+    /// How large it is, among faults of its kind.
+    fn size(&self) -> f64 {
+        match self {
+            Self::AspectRatio { ratio } => *ratio,
+            Self::Warp { degrees } => *degrees,
+            _ => 0.0,
+        }
+    }
+
     /// What to do against it.
     pub fn remedy(&self) -> &'static str {
         match self {
@@ -108,6 +117,26 @@ pub struct MeshFault {
 }
 
 impl MeshFault {
+    /// The worst fault of each kind of this severity, with the number of that kind.
+    pub fn worst_of_kinds(faults: &[Self], severity: Severity) -> Vec<(&Self, usize)> {
+        let mut found: Vec<(&Self, usize)> = Vec::new();
+        for fault in faults.iter().filter(|fault| fault.severity() == severity) {
+            let is_alike = |(own, _): &&mut (&Self, usize)| {
+                std::mem::discriminant(&own.kind) == std::mem::discriminant(&fault.kind)
+            };
+            match found.iter_mut().find(is_alike) {
+                Some((worst, count)) => {
+                    *count += 1;
+                    if fault.kind.size() > worst.kind.size() {
+                        *worst = fault;
+                    }
+                }
+                None => found.push((fault, 1)),
+            }
+        }
+        found
+    }
+
     /// How severe it is.
     pub fn severity(&self) -> Severity {
         self.kind.severity()

@@ -53,18 +53,21 @@ pub enum MeshShape {
     Hexahedron8,
     /// Eight corners, then the middles of the edges 12, 23, 34, 41, 56, 67, 78, 85, 15, 26, 37, 48.
     Hexahedron20,
+    /// Three nodes of a face, then the three opposite.
+    Wedge6,
+    /// Six corners, then the middles of the edges 12, 23, 31, 45, 56, 64, 14, 25, 36.
+    Wedge15,
 }
 
 impl MeshShape {
     /// Number of nodes.
     pub fn node_count(self) -> usize {
-        match self {
-            Self::Line2 => 2,
-            Self::Triangle3 => 3,
-            Self::Quadrilateral4 | Self::Tetrahedron4 => 4,
-            Self::Hexahedron8 => 8,
-            Self::Tetrahedron10 => 10,
-            Self::Hexahedron20 => 20,
+        match (self, self.solid_kind()) {
+            (_, Some((kind, true))) => kind.node_count(),
+            (_, Some((kind, false))) => kind.corners.len(),
+            (Self::Line2, _) => 2,
+            (Self::Triangle3, _) => 3,
+            _ => 4,
         }
     }
 

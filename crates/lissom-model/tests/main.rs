@@ -2,5 +2,6 @@
 
 mod document;
 mod fuzz;
+mod meshes;
 mod parts;
 mod support;

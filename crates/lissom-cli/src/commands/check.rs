@@ -175,8 +175,7 @@ fn parts(document: &Document, lowered: &Lowered) -> String {
     let solids = match document.elastic_solids.len() {
         0 => String::new(),
         number => {
-            let elements: usize =
-                document.elastic_solids.iter().map(|solid| solid.mesh.element_count()).sum();
+            let elements: usize = document.elastic_solids.iter().map(|solid| solid.mesh.elements.len()).sum();
             format!("{} of {}, ", count(number, "solid", "solids"), count(elements, "element", "elements"))
         }
     };

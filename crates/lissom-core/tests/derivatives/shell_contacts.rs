@@ -9,6 +9,7 @@ use lissom_core::flexible::shell::section::{Ply, ShellLaw};
 use lissom_core::flexible::shell::surface::{ShellSection, SurfaceDescription, shell_surface};
 use lissom_core::kinematics::{Freedoms, GROUND, Kinematics};
 use lissom_core::system::{Builder, State, System};
+use lissom_mesh::{MeshShape, MeshedPart};
 use lissom_motion::{Motion, Vector3};
 
 use crate::derivatives::check;
@@ -56,15 +57,16 @@ fn model(
         })
         .collect();
     let elements = [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]];
+    let elements =
+        elements.map(|own| lissom_mesh::Element { shape: MeshShape::Quadrilateral4, nodes: own.to_vec() });
+    let mesh = MeshedPart { positions: grid, elements: elements.to_vec(), ..MeshedPart::default() };
     let ply =
         Ply { thickness: 1e-3, angle: 0.0, young: [1e-3; 2], poisson: 0.2, shear: [1e-3; 3], density: 1.0 };
     let (contribution, surface) = shell_surface(
         builder.model(),
         &SurfaceDescription {
-            positions: &grid,
+            mesh: &mesh,
             names: &|node| format!("node {node}"),
-            elements: &elements,
-            normals: None,
             fold_angle: 0.5,
             direction: None,
             damping: 0.0,

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::mass_distribution::MassDistribution;
 use lissom_core::elements::{Element, OwnInertia, Tangents};
+use lissom_core::flexible::pressure::{FacePressure, Pressure, face_points};
 use lissom_core::flexible::shell::Shell;
 use lissom_core::flexible::shell::damping::ShellDamping;
-use lissom_core::flexible::shell::pressure::Pressure;
 use lissom_core::flexible::shell::section::{Ply, ShellLaw};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_core::system::{Builder, State, System};
@@ -50,7 +50,7 @@ fn tangents_of_pressure_are_the_derivatives_of_its_forces() {
     let mut builder = Builder::new();
     let nodes =
         std::array::from_fn(|i| builder.add_node(&format!("node {i}"), random.motion(), Freedoms::Full));
-    builder.add_element(Pressure::new(nodes, Arc::new(Wave)));
+    builder.add_element(FacePressure::<4>::new(nodes, face_points(), Pressure::Uniform(Arc::new(Wave))));
     let (system, state) = builder.build(0.0).expect("valid");
     check("pressure", &system, &state, 0.4, &mut random);
 }

@@ -4,13 +4,14 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{Deformable, Element, Tangents};
+use lissom_core::flexible::pressure::{FacePressure, Pressure, face_points};
+use lissom_core::flexible::solid::damping::SolidDamping;
 use lissom_core::flexible::solid::law::{SolidLaw, SolidModel};
-use lissom_core::flexible::solid::pressure::{FacePressure, area_shares};
-use lissom_core::flexible::solid::shape::{hexahedron_node, tetrahedron_node};
-use lissom_core::flexible::solid::volume::{hexahedron_shares, tetrahedron_shares};
-use lissom_core::flexible::solid::{Hexahedron, Tetrahedron};
+use lissom_core::flexible::solid::{Hexahedron, Solid, SolidElement};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId, Stressed};
 use lissom_core::system::{Builder, State, System};
+use lissom_mesh::kinds::face::area_shares;
+use lissom_mesh::kinds::{SOLID_KINDS, SolidKind};
 use lissom_motion::{Motion, Rotation, Vector3};
 use nalgebra::DMatrix;
 
@@ -20,45 +21,42 @@ use super::configuration::{Configuration, Random, Wave, difference};
 const LAWS: [(SolidModel, f64); 3] =
     [(SolidModel::StVenantKirchhoff, 0.3), (SolidModel::NeoHookean, 0.35), (SolidModel::NeoHookean, 0.45)];
 
-/// Distorted positions with curved edges.
-fn positions<const NODES: usize>(node: fn(usize) -> [f64; 3], random: &mut Random) -> [Vector3; NODES] {
-    std::array::from_fn(|i| Vector3::from(node(i)) + 0.05 * random.vector())
-}
-
 fn nodes<const NODES: usize>(builder: &mut Builder, positions: &[Vector3; NODES]) -> [NodeId; NODES] {
     std::array::from_fn(|i| {
         builder.add_node(&format!("node {i}"), Motion::translation(positions[i]), Freedoms::Translations)
     })
 }
 
-fn tetrahedron(random: &mut Random, (model, poisson): (SolidModel, f64)) -> (System, State, Tetrahedron) {
+/// An element with distorted positions and curved edges.
+fn solid<const NODES: usize, const POINTS: usize>(
+    kind: usize,
+    random: &mut Random,
+    (model, poisson): (SolidModel, f64),
+) -> (System, State, Solid<NODES, POINTS>) {
+    let kind: &'static SolidKind = SOLID_KINDS[kind];
     let mut builder = Builder::new();
-    let positions = positions(tetrahedron_node, random);
+    let positions = std::array::from_fn(|i| Vector3::from(kind.node(i)) + 0.05 * random.vector());
     let law = SolidLaw::new(model, 3.0, poisson);
-    let solid = Tetrahedron::new(nodes(&mut builder, &positions), &positions, law).expect("valid");
+    let solid = Solid::new(kind, nodes(&mut builder, &positions), &positions, law).expect("valid");
     builder.add_element(solid.clone());
     let (system, state) = builder.build(0.0).expect("valid");
     (system, state, solid)
 }
 
-fn hexahedron(random: &mut Random, (model, poisson): (SolidModel, f64)) -> (System, State, Hexahedron) {
-    let mut builder = Builder::new();
-    let positions = positions(hexahedron_node, random);
-    let law = SolidLaw::new(model, 3.0, poisson);
-    let solid = Hexahedron::new(nodes(&mut builder, &positions), &positions, law).expect("valid");
-    builder.add_element(solid.clone());
-    let (system, state) = builder.build(0.0).expect("valid");
-    (system, state, solid)
+fn hexahedron(random: &mut Random, law: (SolidModel, f64)) -> (System, State, Hexahedron) {
+    solid(1, random, law)
 }
 
-/// Calls a function with both shapes and all laws.
+/// Calls a function with all shapes and laws.
 macro_rules! for_all {
     ($random:ident, $check:ident) => {
         for law in LAWS {
-            let (system, state, solid) = tetrahedron(&mut $random, law);
-            $check(&system, &state, &solid, &mut $random);
-            let (system, state, solid) = hexahedron(&mut $random, law);
-            $check(&system, &state, &solid, &mut $random);
+            let (system, state, own) = solid::<10, 4>(0, &mut $random, law);
+            $check(&system, &state, &own, &mut $random);
+            let (system, state, own) = solid::<20, 21>(1, &mut $random, law);
+            $check(&system, &state, &own, &mut $random);
+            let (system, state, own) = solid::<15, 9>(2, &mut $random, law);
+            $check(&system, &state, &own, &mut $random);
         }
     };
 }
@@ -88,13 +86,51 @@ fn tangents_are_the_derivatives_of_forces() {
 }
 
 #[test]
+fn tangents_of_damping_are_the_derivatives_of_its_forces() {
+    fn damped<const NODES: usize, const POINTS: usize>(
+        positions: &[Vector3; NODES],
+        solid: &Solid<NODES, POINTS>,
+        random: &mut Random,
+    ) {
+        let mut builder = Builder::new();
+        nodes(&mut builder, positions);
+        builder.add_element(SolidDamping::new(solid.clone(), 0.4));
+        let (system, state) = builder.build(0.0).expect("valid");
+        check("damping", &system, &state, 0.04, random);
+        // A rigid rotation about the origin.
+        let mut at = deformed(&system, &state, random);
+        let spin = random.vector();
+        at.nodes.iter_mut().for_each(|node| {
+            node.twist.fixed_rows_mut::<3>(0).copy_from(&spin.cross(&node.frame.position));
+        });
+        let forces = forces(&SolidDamping::new(solid.clone(), 0.4), &at);
+        assert!(forces.iter().all(|force| force.abs() < 1e-13), "{forces:?}");
+    }
+    let mut random = Random::new(12);
+    for law in LAWS {
+        let (_, state, own) = solid::<10, 4>(0, &mut random, law);
+        damped(&own.positions(&state.kinematics), &own, &mut random);
+        let (_, state, own) = solid::<20, 21>(1, &mut random, law);
+        damped(&own.positions(&state.kinematics), &own, &mut random);
+    }
+}
+
+#[test]
 fn tangents_of_pressure_are_the_derivatives_of_its_forces() {
     let mut random = Random::new(9);
     let mut builder = Builder::new();
     let places: [Vector3; 14] = std::array::from_fn(|_| random.vector());
     let all = nodes(&mut builder, &places);
-    builder.add_element(FacePressure::on_triangle(std::array::from_fn(|i| all[i]), Arc::new(Wave)));
-    builder.add_element(FacePressure::on_quadrilateral(std::array::from_fn(|i| all[6 + i]), Arc::new(Wave)));
+    builder.add_element(FacePressure::<6>::new(
+        std::array::from_fn(|i| all[i]),
+        face_points(),
+        Pressure::Uniform(Arc::new(Wave)),
+    ));
+    builder.add_element(FacePressure::<8>::new(
+        std::array::from_fn(|i| all[6 + i]),
+        face_points(),
+        Pressure::Uniform(Arc::new(Wave)),
+    ));
     let (system, state) = builder.build(0.0).expect("valid");
     check("pressure", &system, &state, 0.4, &mut random);
 }
@@ -164,8 +200,12 @@ fn a_rigid_motion_changes_nothing() {
 
 #[test]
 fn stresses_are_predicted_to_first_order() {
+    predicted(LAWS[0]);
+}
+
+fn predicted(law: (SolidModel, f64)) {
     let mut random = Random::new(10);
-    let (system, state, solid) = hexahedron(&mut random, LAWS[0]);
+    let (system, state, solid) = hexahedron(&mut random, law);
     let here = deformed(&system, &state, &mut random);
     let way: Vec<Vector3> = here.nodes.iter().map(|_| random.vector()).collect();
     // The tangent with stresses predicted over a distance differs from the exact one quadratically.
@@ -196,26 +236,23 @@ fn forces_of_an_element_that_is_turned_inside_out_are_no_numbers() {
 
 #[test]
 fn shares_of_nodes_are_volumes_and_areas_of_a_uniform_load() {
-    let regular = std::array::from_fn(|i| tetrahedron_node(i).into());
-    let volumes = tetrahedron_shares(&regular).expect("valid");
-    for (i, share) in volumes.iter().enumerate() {
-        let expected = if i < 4 { -1.0 / 20.0 } else { 1.0 / 5.0 } / 6.0;
-        assert!((share - expected).abs() < 1e-14, "{volumes:?}");
+    // Of corners and middles; those of a wedge are as of its triangle and its line.
+    let corner_and_middle = [(-1.0 / 120.0, 1.0 / 30.0), (-1.0, 4.0 / 3.0)];
+    for (kind, (corner, middle)) in SOLID_KINDS.into_iter().zip(corner_and_middle) {
+        let regular: Vec<Vector3> = (0..kind.node_count()).map(|i| kind.node(i).into()).collect();
+        for (i, share) in kind.shares(&regular).expect("valid").iter().enumerate() {
+            let expected = if i < kind.corners.len() { corner } else { middle };
+            assert!((share - expected).abs() < 1e-13, "{}: {i} {share}", kind.word);
+        }
     }
-    let volumes = hexahedron_shares(&std::array::from_fn(|i| hexahedron_node(i).into())).expect("valid");
-    for (i, share) in volumes.iter().enumerate() {
-        let expected = if i < 8 { -1.0 } else { 4.0 / 3.0 };
-        assert!((share - expected).abs() < 1e-13, "{volumes:?}");
-    }
-    let mirrored = std::array::from_fn(|i| -Vector3::from(hexahedron_node(i)));
-    assert!(hexahedron_shares(&mirrored).is_err());
+    let [tetrahedron, hexahedron, _] = SOLID_KINDS;
     // Corners have a negative share in a square, and none in a triangle.
-    let square: Vec<Vector3> = [4, 5, 6, 7, 12, 13, 14, 15].map(|i| hexahedron_node(i).into()).to_vec();
+    let square: Vec<Vector3> = [4, 5, 6, 7, 12, 13, 14, 15].map(|i| hexahedron.node(i).into()).to_vec();
     let shares = area_shares(&square);
     for (i, share) in shares.iter().enumerate() {
         assert!((share - if i < 4 { -1.0 / 3.0 } else { 4.0 / 3.0 }).abs() < 1e-14, "{shares:?}");
     }
-    let triangle: Vec<Vector3> = [0, 1, 2, 4, 5, 6].map(|i| tetrahedron_node(i).into()).to_vec();
+    let triangle: Vec<Vector3> = [0, 1, 2, 4, 5, 6].map(|i| tetrahedron.node(i).into()).to_vec();
     let shares = area_shares(&triangle);
     for (i, share) in shares.iter().enumerate() {
         assert!((share - if i < 3 { 0.0 } else { 1.0 / 6.0 }).abs() < 1e-14, "{shares:?}");
@@ -238,8 +275,10 @@ fn stresses_at_nodes_are_those_of_a_uniform_strain() {
             at.nodes.iter_mut().for_each(|node| node.frame.position = stretch * node.frame.position);
             at
         };
-        let (_, state, solid) = tetrahedron(&mut random, law);
-        uniform(&strained(&state), &solid.nodal_stresses(&solid.positions(&strained(&state))));
+        let (_, state, own) = solid::<10, 4>(0, &mut random, law);
+        uniform(&strained(&state), &own.nodal_stresses(&own.positions(&strained(&state))));
+        let (_, state, own) = solid::<15, 9>(2, &mut random, law);
+        uniform(&strained(&state), &own.nodal_stresses(&own.positions(&strained(&state))));
         let (_, state, solid) = hexahedron(&mut random, law);
         let at = strained(&state);
         uniform(&at, &solid.nodal_stresses(&solid.positions(&at)));

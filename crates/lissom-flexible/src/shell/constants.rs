@@ -1,6 +1,8 @@
 //! Numbers of a shell element that do not change, of one element or of several in lanes.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use std::sync::Arc;
+
 use lissom_motion::{Real, Triple, Vector3};
 use nalgebra::Matrix2;
 
@@ -107,9 +109,9 @@ fn add<R: Real, const N: usize>(
     }
 }
 
-/// The constants of one element.
+/// The constants of one element, which copies share.
 #[derive(Clone, Debug)]
-pub(super) struct Numbers(pub(super) Box<[f64; COUNT]>);
+pub(super) struct Numbers(pub(super) Arc<[f64; COUNT]>);
 
 impl Numbers {
     /// From the stiffness, the triads in the axes of their nodes and the Jacobians at the Gauss points. Natural strains are zero.
@@ -132,16 +134,16 @@ impl Numbers {
             let inverse = jacobian.try_inverse().unwrap_or_else(Matrix2::zeros);
             all.extend([inverse[(0, 0)], inverse[(0, 1)], inverse[(1, 0)], inverse[(1, 1)]]);
         }
-        let mut numbers = Box::new([0.0; COUNT]);
+        let mut numbers = [0.0; COUNT];
         for (number, value) in numbers.iter_mut().zip(all) {
             *number = value;
         }
-        Self(numbers)
+        Self(numbers.into())
     }
 
     /// The same with strains in the stress-free state.
     pub(super) fn with_natural(mut self, strains: &[f64; STRAINS]) -> Self {
-        self.0[NATURAL..NATURAL + STRAINS].copy_from_slice(strains);
+        Arc::make_mut(&mut self.0)[NATURAL..NATURAL + STRAINS].copy_from_slice(strains);
         self
     }
 }

@@ -18,13 +18,14 @@ mod forces;
 mod interpolation;
 mod linearize;
 mod mass;
-pub mod pressure;
 pub mod quadrilateral;
 mod reference;
 pub mod section;
 mod stage_forces;
 mod strains;
 pub mod surface;
+
+use std::sync::Arc;
 
 use lissom_motion::{Motion, Pose, Vector3};
 
@@ -42,13 +43,13 @@ use lissom_mechanics::evaluation::blocks::Blocks;
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 use lissom_mechanics::kinematics::{Kinematics, NodeId, Stressed};
 
-/// A shell element.
+/// A shell element. Copies share its constants.
 #[derive(Clone, Debug)]
 pub struct Shell {
     nodes: [NodeId; NODES],
     numbers: Numbers,
     reference: Reference,
-    law: ShellLaw,
+    law: Arc<ShellLaw>,
 }
 
 impl Shell {
@@ -59,8 +60,9 @@ impl Shell {
         frames: &[Motion; NODES],
         directors: &[Vector3; NODES],
         direction: Option<Vector3>,
-        law: ShellLaw,
+        law: impl Into<Arc<ShellLaw>>,
     ) -> Self {
+        let law = law.into();
         let reference = Reference::new(frames.map(|frame| frame.position), direction);
         let stiffness = condensed::stiffness(&reference, &law);
         let triads = std::array::from_fn(|i| {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lissom_mesh::MeshedPart;
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 
 use super::condensed::areas;
@@ -49,14 +50,10 @@ impl ShellSection {
 
 /// Description of a surface of shell elements.
 pub struct SurfaceDescription<'a> {
-    /// Position of each node [m].
-    pub positions: &'a [Vector3],
+    /// Nodes and quadrilaterals; normals that are not known are means of those of the elements.
+    pub mesh: &'a MeshedPart,
     /// Name of each node.
     pub names: &'a dyn Fn(usize) -> String,
-    /// Nodes of each element, counterclockwise about the normal.
-    pub elements: &'a [[usize; 4]],
-    /// Unit normal at each node where it is known; none for the mean of the elements' normals.
-    pub normals: Option<&'a [Vector3]>,
     /// Largest angle between normals of elements at a node that count as one smooth surface [rad].
     pub fold_angle: f64,
     /// Direction that is projected on each element to be its first local axis.
@@ -82,9 +79,9 @@ pub struct ShellSurface {
 pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> (Contribution, ShellSurface) {
     let mut contribution = Contribution::to(model);
     let references: Vec<Reference> = surface
-        .elements
-        .iter()
-        .map(|own| Reference::new(own.map(|node| surface.positions[node]), surface.direction))
+        .mesh
+        .quadrilaterals()
+        .map(|own| Reference::new(own.map(|node| surface.mesh.positions[node]), surface.direction))
         .collect();
     let directors = directors(surface, &references);
     let frames = frames(surface, &references, &directors);
@@ -95,7 +92,7 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
         .collect();
     let mut own_areas = vec![0.0; nodes.len()];
     let mut elements = Vec::with_capacity(references.len());
-    for (index, own) in surface.elements.iter().enumerate() {
+    for (index, own) in surface.mesh.quadrilaterals().enumerate() {
         let section = (surface.section)(index);
         let element_nodes = own.map(|node| nodes[node]);
         let centers = directors[index].map(|director| section.center * director);
@@ -141,17 +138,17 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
 /// The normal of each element at each of its nodes: that of the smooth surface around the node to which the element belongs.
 fn directors(surface: &SurfaceDescription<'_>, references: &[Reference]) -> Vec<[Vector3; 4]> {
     let own: Vec<[Vector3; 4]> = references.iter().map(Reference::nodal_normals).collect();
-    if let Some(normals) = surface.normals {
-        let of = |(element, own): (&[usize; 4], &[Vector3; 4])| {
+    if let Some(normals) = &surface.mesh.normals {
+        let of = |(element, own): ([usize; 4], &[Vector3; 4])| {
             std::array::from_fn(|i| {
                 let normal = normals[element[i]];
                 normal * normal.dot(&own[i]).signum()
             })
         };
-        return surface.elements.iter().zip(&own).map(of).collect();
+        return surface.mesh.quadrilaterals().zip(&own).map(of).collect();
     }
-    let mut corners: Vec<Vec<(usize, usize)>> = vec![Vec::new(); surface.positions.len()];
-    for (index, element) in surface.elements.iter().enumerate() {
+    let mut corners: Vec<Vec<(usize, usize)>> = vec![Vec::new(); surface.mesh.positions.len()];
+    for (index, element) in surface.mesh.quadrilaterals().enumerate() {
         element.iter().enumerate().for_each(|(i, &node)| corners[node].push((index, i)));
     }
     let area: Vec<f64> = references.iter().map(|reference| reference.axes(0.0, 0.0).area).collect();
@@ -183,10 +180,10 @@ fn frames(
     references: &[Reference],
     directors: &[[Vector3; 4]],
 ) -> Vec<Motion> {
-    let mut normals = vec![Vector3::zeros(); surface.positions.len()];
-    let mut firsts = vec![Vector3::zeros(); surface.positions.len()];
-    for ((element, reference), directors) in surface.elements.iter().zip(references).zip(directors) {
-        for (&node, director) in element.iter().zip(directors) {
+    let mut normals = vec![Vector3::zeros(); surface.mesh.positions.len()];
+    let mut firsts = vec![Vector3::zeros(); surface.mesh.positions.len()];
+    for ((element, reference), directors) in surface.mesh.quadrilaterals().zip(references).zip(directors) {
+        for (node, director) in element.into_iter().zip(directors) {
             normals[node] += director;
             if firsts[node] == Vector3::zeros() {
                 firsts[node] = reference.first;
@@ -201,7 +198,7 @@ fn frames(
         let axes = Matrix3::from_columns(&[first, third.cross(&first), third]);
         Motion::new(Rotation::from_matrix(&axes), *position)
     };
-    surface.positions.iter().zip(&normals).zip(&firsts).map(frame).collect()
+    surface.mesh.positions.iter().zip(&normals).zip(&firsts).map(frame).collect()
 }
 
 /// A unit vector perpendicular to another.

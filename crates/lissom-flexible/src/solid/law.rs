@@ -72,6 +72,12 @@ impl SolidLaw {
         }
     }
 
+    /// Stress of a small strain without that of the mean dilatation [Pa].
+    pub(super) fn small_stress(&self, strain: &Matrix3) -> Matrix3 {
+        let first = (self.bulk_at_point() - 2.0 / 3.0 * self.shear) * strain.trace();
+        2.0 * self.shear * strain + Matrix3::from_diagonal_element(first)
+    }
+
     /// Second Piola-Kirchhoff stress of a Green-Lagrange strain [Pa].
     pub(super) fn second_stress(&self, strain: &Matrix3) -> Matrix3 {
         let first = (self.bulk - 2.0 / 3.0 * self.shear) * strain.trace();

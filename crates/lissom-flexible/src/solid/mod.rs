@@ -1,5 +1,5 @@
-//! Solid elements of second order whose nodes have positions only: tetrahedra with ten nodes and hexahedra with twenty. Elastic forces;
-//! their inertia is added by `volume`.
+//! Solid elements of second order whose nodes have positions only, of the kinds of `lissom-mesh`. Elastic forces; their inertia is added by
+//! `volume`.
 //!
 //! Legend: x_I position of node I, G_I derivative of its function with respect to the position at rest, w volume of a point of
 //! quadrature, P first Piola-Kirchhoff stress, see `law`.
@@ -10,11 +10,11 @@
 //!
 //! Everything refers to the stress-free state: there is no history. Nodes have no rotation, and their axes are global.
 
+pub mod damping;
 mod deformation;
+mod kinds;
 pub mod law;
-pub mod pressure;
 mod reference;
-pub mod shape;
 mod stage_forces;
 mod stress;
 mod tangent;
@@ -22,6 +22,7 @@ pub mod volume;
 
 use std::sync::Arc;
 
+use lissom_mesh::kinds::SolidKind;
 use lissom_motion::{Matrix3, Vector3};
 
 use self::deformation::Deformation;
@@ -31,42 +32,16 @@ use lissom_mechanics::elements::{Capabilities, Deformable, Element, Energy, Tang
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 use lissom_mechanics::kinematics::{Kinematics, NodeId, Stressed};
 
-pub use self::reference::Inverted;
+pub use self::kinds::{Hexahedron, SolidElement, SolidMaterial, Tetrahedron, Wedge, element};
 pub use self::stress::{CauchyStress, principal, von_mises};
 
 /// A solid element. Constants are shared by copies.
 #[derive(Clone, Debug)]
 pub struct Solid<const NODES: usize, const POINTS: usize> {
+    kind: &'static SolidKind,
     nodes: [NodeId; NODES],
     reference: Arc<Reference<NODES, POINTS>>,
     law: SolidLaw,
-}
-
-/// A tetrahedron with ten nodes.
-pub type Tetrahedron = Solid<10, 4>;
-/// A hexahedron with twenty nodes.
-pub type Hexahedron = Solid<20, 21>;
-
-impl Tetrahedron {
-    /// A tetrahedron, stress-free with its nodes at `positions` [m].
-    ///
-    /// # Errors
-    /// If it is inverted somewhere.
-    pub fn new(nodes: [NodeId; 10], positions: &[Vector3; 10], law: SolidLaw) -> Result<Self, Inverted> {
-        let reference = Reference::new(positions, shape::tetrahedron, shape::tetrahedron_points())?;
-        Ok(Self { nodes, reference: reference.into(), law })
-    }
-}
-
-impl Hexahedron {
-    /// A hexahedron, stress-free with its nodes at `positions` [m].
-    ///
-    /// # Errors
-    /// If it is inverted somewhere.
-    pub fn new(nodes: [NodeId; 20], positions: &[Vector3; 20], law: SolidLaw) -> Result<Self, Inverted> {
-        let reference = Reference::new(positions, shape::hexahedron, shape::hexahedron_points())?;
-        Ok(Self { nodes, reference: reference.into(), law })
-    }
 }
 
 /// The deformation at all points of quadrature.
@@ -124,6 +99,19 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         let volumes = self.reference.volumes.iter();
         points.iter().zip(volumes).map(|(point, volume)| volume * point.dilatation()).sum::<f64>()
             / self.reference.volume
+    }
+
+    /// Derivatives of its volume by the positions of its nodes [m²].
+    fn volume_slopes(&self, points: &[Deformation; POINTS]) -> [Vector3; NODES] {
+        let mut sums = [Vector3::zeros(); NODES];
+        for ((point, slopes), volume) in
+            points.iter().zip(&self.reference.gradients).zip(&self.reference.volumes)
+        {
+            for (sum, slope) in sums.iter_mut().zip(slopes) {
+                *sum += volume * point.determinant * (point.inverse_transpose * slope);
+            }
+        }
+        sums
     }
 
     /// Strain energy with its nodes at these positions [J].

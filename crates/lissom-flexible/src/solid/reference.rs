@@ -1,18 +1,7 @@
 //! A solid element in its stress-free state: gradients of its functions at the points of quadrature.
 
-use lissom_motion::{Matrix3, Vector3};
-
-use super::shape::{Functions, Natural};
-
-/// An element whose nodes enclose no volume, or a negative one, somewhere.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("volume per natural coordinates is {volume:.3e} m³ at [{:.4}, {:.4}, {:.4}]", position.x, position.y, position.z)]
-pub struct Inverted {
-    /// Where [m].
-    pub position: Vector3,
-    /// Determinant of the derivatives of the position there [m³].
-    pub volume: f64,
-}
+use lissom_mesh::kinds::{Functions, Inverted, SolidKind};
+use lissom_motion::Vector3;
 
 /// The stress-free state.
 #[derive(Clone, Debug)]
@@ -27,37 +16,18 @@ pub(super) struct Reference<const NODES: usize, const POINTS: usize> {
     pub volume: f64,
 }
 
-/// Derivatives of the functions with respect to the position, and the volume per natural coordinates.
-pub(super) fn gradients<const NODES: usize>(
-    functions: &Functions<NODES>,
-    positions: &[Vector3; NODES],
-) -> Result<([Vector3; NODES], f64), Inverted> {
-    let slope: Matrix3 =
-        positions.iter().zip(&functions.slopes).map(|(x, slope)| x * slope.transpose()).sum();
-    let volume = slope.determinant();
-    match slope.try_inverse() {
-        Some(inverse) if volume > 0.0 => Ok((functions.slopes.map(|slope| inverse.tr_mul(&slope)), volume)),
-        _ => {
-            let position = positions.iter().zip(functions.values).map(|(x, value)| value * x).sum();
-            Err(Inverted { position, volume })
-        }
-    }
-}
-
 impl<const NODES: usize, const POINTS: usize> Reference<NODES, POINTS> {
-    pub(super) fn new(
-        positions: &[Vector3; NODES],
-        functions: fn(Natural) -> Functions<NODES>,
-        points: [(Natural, f64); POINTS],
-    ) -> Result<Box<Self>, Inverted> {
+    /// Of an element of a kind with so many nodes and points of quadrature.
+    pub(super) fn new(kind: &SolidKind, positions: &[Vector3; NODES]) -> Result<Box<Self>, Inverted> {
         let mut reference = Box::new(Self {
             positions: *positions,
             gradients: [[Vector3::zeros(); NODES]; POINTS],
             volumes: [0.0; POINTS],
             volume: 0.0,
         });
-        for (k, (place, weight)) in points.into_iter().enumerate() {
-            let (own, volume) = gradients(&functions(place), positions)?;
+        for k in 0..POINTS {
+            let (place, weight) = (kind.points.0)(k);
+            let (own, volume) = Functions::at(kind.functions, place).gradients(positions)?;
             reference.gradients[k] = own;
             reference.volumes[k] = weight * volume;
         }
@@ -68,14 +38,13 @@ impl<const NODES: usize, const POINTS: usize> Reference<NODES, POINTS> {
 
 /// The integrals of products of two functions: mass matrix of an element of density 1 [m³].
 pub(super) fn mass_matrix<const NODES: usize>(
+    kind: &SolidKind,
     positions: &[Vector3; NODES],
-    functions: fn(Natural) -> Functions<NODES>,
-    points: &[(Natural, f64)],
 ) -> Result<Box<[[f64; NODES]; NODES]>, Inverted> {
     let mut matrix = Box::new([[0.0; NODES]; NODES]);
-    for &(place, weight) in points {
-        let functions = functions(place);
-        let volume = weight * gradients(&functions, positions)?.1;
+    for (place, weight) in (0..kind.fine.1).map(kind.fine.0) {
+        let functions = Functions::<NODES>::at(kind.functions, place);
+        let volume = weight * functions.gradients(positions)?.1;
         for (row, value) in matrix.iter_mut().zip(functions.values) {
             row.iter_mut().zip(functions.values).for_each(|(sum, other)| *sum += volume * value * other);
         }

@@ -1,11 +1,10 @@
 //! Stresses of a solid element at its nodes, extrapolated from the points where they are most accurate.
 
+use lissom_mesh::kinds::Functions;
 use lissom_motion::{Matrix3, Vector3};
 
+use super::Solid;
 use super::deformation::Deformation;
-use super::reference::gradients;
-use super::shape::{self, Functions, Natural};
-use super::{Hexahedron, Solid, Tetrahedron};
 
 /// Cauchy stress in global axes [Pa].
 pub type CauchyStress = Matrix3;
@@ -29,57 +28,25 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         mean: f64,
         functions: &Functions<NODES>,
     ) -> CauchyStress {
-        let Ok((slopes, _)) = gradients(functions, &self.reference.positions) else {
+        let Ok((slopes, _)) = functions.gradients(&self.reference.positions) else {
             return CauchyStress::repeat(f64::NAN);
         };
         let point = Deformation::new(displacements, &slopes);
         self.law.first_stress(&point, mean) * point.gradient.transpose() / point.determinant
     }
 
-    /// Stresses at the nodes from those at `COUNT` points, by functions that extrapolate from these.
-    fn extrapolated<const COUNT: usize>(
-        &self,
-        positions: &[Vector3; NODES],
-        functions: fn(Natural) -> Functions<NODES>,
-        points: [Natural; COUNT],
-        shares: impl Fn(usize) -> [f64; COUNT],
-    ) -> [CauchyStress; NODES] {
+    /// Stresses at the nodes, which are at these positions: linear between the points where they are most accurate.
+    pub fn nodal_stresses(&self, positions: &[Vector3; NODES]) -> [CauchyStress; NODES] {
         let (displacements, mean) = (self.displacements(positions), self.deformed_to(positions).mean);
-        let known = points.map(|point| self.stress_at(&displacements, mean, &functions(point)));
-        std::array::from_fn(|node| {
-            let shares = shares(node);
-            known.iter().zip(shares).map(|(stress, share)| share * stress).sum()
-        })
-    }
-
-    /// Its volume at rest [m³].
-    pub fn volume(&self) -> f64 {
-        self.reference.volume
-    }
-}
-
-impl Tetrahedron {
-    /// Stresses at the nodes, which are at these positions: linear between the points of quadrature.
-    pub fn nodal_stresses(&self, positions: &[Vector3; 10]) -> [CauchyStress; 10] {
-        let points = shape::tetrahedron_points().map(|(point, _)| point);
-        let [far, near] = [points[1][0], points[0][0]];
-        self.extrapolated(positions, shape::tetrahedron, points, |node| {
-            let [x, y, z] = shape::tetrahedron_node(node);
-            // Volume coordinates of the tetrahedron of the points.
-            [1.0 - x - y - z, x, y, z].map(|own| (own - near) / (far - near))
-        })
-    }
-}
-
-impl Hexahedron {
-    /// Stresses at the nodes, which are at these positions: trilinear between 2 x 2 x 2 points of Gauss.
-    pub fn nodal_stresses(&self, positions: &[Vector3; 20]) -> [CauchyStress; 20] {
-        let near = (1.0_f64 / 3.0).sqrt();
-        let signs: [Natural; 8] = std::array::from_fn(shape::hexahedron_node);
-        let points = signs.map(|point| point.map(|sign| near * sign));
-        self.extrapolated(positions, shape::hexahedron, points, |node| {
-            let place = shape::hexahedron_node(node);
-            signs.map(|sign| (0..3).map(|k| 0.5 * (1.0 + sign[k] * place[k] / near)).product())
-        })
+        let (at, count) = self.kind.stress_points;
+        let mut stresses = [CauchyStress::zeros(); NODES];
+        for k in 0..count {
+            let functions = Functions::at(self.kind.functions, at(k));
+            let stress = self.stress_at(&displacements, mean, &functions);
+            for (node, sum) in stresses.iter_mut().enumerate() {
+                *sum += (self.kind.stress_share)(k, self.kind.node(node)) * stress;
+            }
+        }
+        stresses
     }
 }

@@ -12,10 +12,11 @@ use crate::expression::Expression;
 use crate::format::keys::Shape;
 use crate::line::Line;
 use crate::parts::context::Context;
-use crate::reading::mesh_nodes::NodeSets;
+use crate::reading::mesh_nodes::position_of;
 use crate::reading::reader::Reader;
 use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
+use lissom_mesh::MeshedPart;
 
 /// A beam whose ends have no positions yet.
 struct Draft {
@@ -38,7 +39,7 @@ enum Form {
 }
 
 /// Shells and solids by name.
-type Meshes = BTreeMap<String, Arc<dyn NodeSets>>;
+type Meshes = BTreeMap<String, Arc<MeshedPart>>;
 /// Positions of parts whose nodes beams may share, and shells and solids.
 type Fixed<'f> = (&'f BTreeMap<String, Vector3>, &'f Meshes);
 
@@ -258,7 +259,7 @@ fn line(
             NodeReference::Interface { superelement, interface } => {
                 fixed.get(&interface_name(superelement, interface)).copied()
             }
-            NodeReference::Mesh { part, place } => meshes.get(part)?.position_of(place),
+            NodeReference::Mesh { part, place } => position_of(meshes.get(part)?, place),
             NodeReference::Beam { beam, fraction } => {
                 lines.get(beam)?.as_ref().map(|line| line.position(*fraction))
             }

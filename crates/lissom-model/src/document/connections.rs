@@ -13,19 +13,20 @@ use super::{
 };
 use crate::line::Line;
 use crate::parts::context::Context;
-use crate::reading::mesh_nodes::NodeSets;
+use crate::reading::mesh_nodes::position_of;
 use crate::text::report::{Located, Problem, Span};
+use lissom_mesh::MeshedPart;
 
 /// Where the nodes of the parts are.
 pub(super) struct Places {
     points: BTreeMap<String, Vector3>,
     lines: BTreeMap<String, Line>,
-    meshes: BTreeMap<String, Arc<dyn NodeSets>>,
+    meshes: BTreeMap<String, Arc<MeshedPart>>,
 }
 
 pub(super) fn places(
     (beams, superelements): (&[Beam], &[Superelement]),
-    meshes: BTreeMap<String, Arc<dyn NodeSets>>,
+    meshes: BTreeMap<String, Arc<MeshedPart>>,
     bodies: &[Body],
     point_masses: &[PointMass],
 ) -> Places {
@@ -42,7 +43,7 @@ pub(super) fn places(
 impl Places {
     /// Positions of all nodes but those of beams.
     pub(super) fn all(&self) -> impl Iterator<Item = Vector3> + '_ {
-        let of_meshes = self.meshes.values().flat_map(|mesh| mesh.positions().iter().copied());
+        let of_meshes = self.meshes.values().flat_map(|mesh| mesh.positions.iter().copied());
         self.points.values().copied().chain(of_meshes)
     }
 
@@ -54,7 +55,7 @@ impl Places {
             NodeReference::Beam { beam, fraction } => {
                 self.lines.get(beam).map(|line| line.position(*fraction))
             }
-            NodeReference::Mesh { part, place } => self.meshes.get(part)?.position_of(place),
+            NodeReference::Mesh { part, place } => position_of(self.meshes.get(part)?, place),
             NodeReference::Interface { superelement, interface } => {
                 self.points.get(&interface_name(superelement, interface)).copied()
             }
@@ -330,8 +331,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         }
     }
     let parts: Vec<&Located<String>> = (document.beams.iter().map(|beam| &beam.name))
-        .chain(document.shells.iter().map(|shell| &shell.name))
-        .chain(document.elastic_solids.iter().map(|solid| &solid.name))
+        .chain(document.meshes().map(|(name, _)| name))
         .chain(document.bodies.iter().map(|body| &body.name))
         .chain(document.point_masses.iter().map(|mass| &mass.name))
         .chain(document.superelements.iter().map(|element| &element.name))

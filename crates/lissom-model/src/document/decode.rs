@@ -21,7 +21,6 @@ use crate::format::top_level::singular;
 use crate::format::top_level::{self, Holds};
 use crate::parts;
 use crate::parts::context::Context;
-use crate::reading::mesh_nodes::NodeSets;
 use crate::registry::Registry;
 use crate::text::report::{Problem, Report, Severity, Span};
 use crate::text::{self, Node, Tree, Value};
@@ -87,10 +86,8 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let point_masses = bodies::point_masses(context);
     let shells = shells::shells(context, &materials);
     let elastic_solids = elastic_solids::elastic_solids(context, &materials);
-    let of_shells =
-        shells.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh) as Arc<dyn NodeSets>));
-    let of_solids =
-        elastic_solids.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh) as Arc<dyn NodeSets>));
+    let of_shells = shells.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh)));
+    let of_solids = elastic_solids.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh)));
     let meshes = of_shells.chain(of_solids).collect();
     let superelements = superelements::superelements(context);
     let beams = beams::beams(context, &bodies, &point_masses, (&meshes, &superelements));

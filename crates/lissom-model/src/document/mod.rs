@@ -19,6 +19,7 @@ mod initial;
 mod load_input;
 mod local_loads;
 mod materials;
+mod meshes;
 pub(crate) mod model_text;
 mod outputs;
 mod places;
@@ -49,12 +50,13 @@ use crate::sections::Outline;
 use crate::sections::{Isotropic, SectionProperties};
 use crate::surface::Surface;
 use crate::text::report::{Located, Problem, Report, Sources, Span};
+use lissom_mesh::MeshedPart;
 
 pub use crate::format::top_level::VERSION;
 pub use crate::outputs::entry::{Output, OutputSource, ReactionAxes};
 pub use crate::outputs::kinds::OutputKind;
 pub(crate) use crate::outputs::kinds::{Feature, Subject};
-use crate::reading::mesh_nodes::NodeSets;
+use crate::reading::mesh_nodes::position_of;
 pub use crate::reading::node_reference::{MeshPlace, NodeReference, interface_name};
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
@@ -204,11 +206,15 @@ impl Document {
         self.beams.iter().find(|beam| beam.name.value == name)
     }
 
-    /// The nodes of the shell or solid called `name`.
-    pub fn mesh(&self, name: &str) -> Option<&dyn NodeSets> {
-        let solid = || self.elastic_solids.iter().find(|solid| solid.name.value == name);
-        let of_solid = || solid().map(|solid| &*solid.mesh as &dyn NodeSets);
-        self.shell(name).map(|shell| &*shell.mesh as &dyn NodeSets).or_else(of_solid)
+    /// Names and meshes of all shells and solids.
+    pub fn meshes(&self) -> impl Iterator<Item = (&Located<String>, &Arc<MeshedPart>)> {
+        let shells = self.shells.iter().map(|own| (&own.name, &own.mesh));
+        shells.chain(self.elastic_solids.iter().map(|own| (&own.name, &own.mesh)))
+    }
+
+    /// The mesh of the shell or solid called `name`.
+    pub fn mesh(&self, name: &str) -> Option<&MeshedPart> {
+        self.meshes().find(|(own, _)| own.value == name).map(|(_, mesh)| &**mesh)
     }
 
     /// The shell called `name`.
@@ -229,7 +235,7 @@ impl Document {
             NodeReference::Beam { beam, fraction } => {
                 self.beam(beam).map(|beam| beam.line.position(*fraction))
             }
-            NodeReference::Mesh { part, place } => self.mesh(part)?.position_of(place),
+            NodeReference::Mesh { part, place } => position_of(self.mesh(part)?, place),
             NodeReference::Interface { superelement, interface } => {
                 let found = self.superelements.iter().find(|own| own.name.value == *superelement)?;
                 found.place_of(interface)

@@ -9,6 +9,7 @@ use lissom_motion::Vector3;
 
 use crate::outputs::entry::{Output, OutputSource};
 use crate::parts::context::Context;
+use crate::reading::mesh_nodes::nodes_at;
 use crate::text::report::{Problem, Span};
 
 /// Gravity above this is that in mm/s² [m/s²].
@@ -57,7 +58,7 @@ fn single_nodes(document: &Document, _: &Places) -> Vec<Doubt> {
         let own = nodes.clone().find(|own| is_shell(&own.value))?;
         let NodeReference::Mesh { part: shell, place } = &own.value else { return None };
         let is_other = nodes.filter(|own| is_shell(&own.value)).count() == 1;
-        let is_single = document.mesh(shell)?.nodes_at(shell, place).is_ok_and(|nodes| nodes.len() == 1);
+        let is_single = nodes_at(document.mesh(shell)?, shell, place).is_ok_and(|nodes| nodes.len() == 1);
         (is_other && is_single).then(|| {
             let message = format!(
                 "`{}` acts on one node of shell `{shell}`, which hardly resists a moment about its normal there",
@@ -75,8 +76,8 @@ fn far_sets(document: &Document, _: &Places) -> Vec<Doubt> {
     let positions = |node: &NodeReference| {
         let NodeReference::Mesh { part, place } = node else { return None };
         let mesh = document.mesh(part)?;
-        let nodes = mesh.nodes_at(part, place).ok()?;
-        Some(nodes.iter().map(|&node| mesh.positions()[node]).collect::<Vec<_>>())
+        let nodes = nodes_at(mesh, part, place).ok()?;
+        Some(nodes.iter().map(|&node| mesh.positions[node]).collect::<Vec<_>>())
     };
     let doubt = |joint: &Component| {
         let [base, tip] = joint.attachment.nodes.as_slice() else { return None };

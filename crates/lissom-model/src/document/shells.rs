@@ -1,29 +1,21 @@
 //! Shells of a model file: their surfaces, sections, sets of nodes and loads per area.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_flexible::shell::section::Ply;
-use lissom_mesh::{Mesh, MeshFaultKind, MeshShape, Severity};
+use lissom_mesh::{Mesh, MeshFault, MeshFaultKind, MeshShape, MeshedPart, PatchFault, Severity, patch};
 use lissom_motion::{Motion, Vector3};
 
 use super::Material;
 use super::entries::each;
+use super::meshes::{divisions, file, formula, one_of, sets};
 use crate::expression::Formula;
 use crate::format::keys::{Key, Shape, optional, required};
 use crate::format::part_tables::placed_in;
-use crate::format::suggest;
 use crate::parts::context::Context;
-use crate::reading::mesh_nodes::ALL;
 use crate::reading::reader::Reader;
-use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
-
-/// Names of the sides of a patch: u = 0 and 1, v = 0 and 1.
-const SIDES: [&str; 4] = ["west", "east", "south", "north"];
-/// Relative distance of nodes that count as one.
-const SAME: f64 = 1e-9;
 
 /// A shell.
 #[derive(Clone, Debug)]
@@ -31,7 +23,7 @@ pub struct Shell {
     /// Name.
     pub name: Located<String>,
     /// Its nodes and elements.
-    pub mesh: Arc<ShellMesh>,
+    pub mesh: Arc<MeshedPart>,
     /// Layers from the bottom to the top, without thickness.
     pub layers: Vec<Layer>,
     /// Direction that is projected on the surface to be the first local axis.
@@ -60,11 +52,11 @@ pub struct Layer {
 /// A load per area of a shell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AreaLoad {
-    /// Of a pressure one, of a force per area three components over u, v and t.
+    /// Of a pressure one over u, v, t and x, y, z, of a force per area three components over u, v and t.
     pub components: Vec<Formula>,
     /// Whether a pressure acts on the face of the normal.
     pub is_on_top: bool,
-    /// Rotation of the axes of three components.
+    /// Axes of x, y and z, and of three components.
     pub axes: Motion,
     /// Where it is.
     pub span: Span,
@@ -164,13 +156,13 @@ pub(super) fn keys() -> Vec<Key> {
             "pressure",
             Shape::AreaSize,
             "Pa",
-            "force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v and t",
+            "force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v, t and the present place x, y, z",
         ),
         optional(
             "pressure_on_top",
             Shape::AreaSize,
             "Pa",
-            "force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v and t",
+            "force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v, t and the present place x, y, z",
         ),
         optional(
             "force_per_area",
@@ -213,17 +205,6 @@ impl Shape {
             optional("density", Self::Positive, "kg/m³", "mass density"),
         ]
     }
-
-    /// Keys of a set of nodes.
-    fn set_keys() -> Vec<Key> {
-        vec![
-            optional("near", Self::Place, "m", "the nearest node"),
-            optional("center", Self::Place, "m", "nodes within `radius` of it"),
-            optional("radius", Self::Positive, "m", "of a ball of nodes"),
-            optional("from", Self::Place, "m", "corner of a box of nodes along the axes"),
-            optional("to", Self::Place, "m", "the opposite corner"),
-        ]
-    }
 }
 
 pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell> {
@@ -240,9 +221,9 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
         let is_patch = mesh.places.is_some();
         let layers = layers(reader, materials, layer)?;
         if reader.flag("join")?.value {
-            join(&mut mesh);
+            mesh.join();
         }
-        sets(reader, &mesh.positions, &mut mesh.sets)?;
+        sets(reader, &mut mesh)?;
         let shell = Shell {
             name: Located::new(name.to_owned(), reader.name),
             mesh: Arc::new(mesh),
@@ -258,62 +239,38 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
     })
 }
 
-fn mesh_of(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
+fn mesh_of(reader: &Reader<'_, '_>) -> Option<(MeshedPart, Option<Layer>)> {
     let context = reader.context;
-    let given: Vec<&str> = ["corners", "surface", "mesh"].into_iter().filter(|key| reader.has(key)).collect();
     let help = "write `corners` or `surface` with `divisions`, or a `mesh`";
-    match given[..] {
-        ["mesh"] => {
-            if let Some(node) = reader.node("divisions") {
-                let message = format!("{} has a `mesh`, which has its own elements", reader.what);
-                return context.fail(node.span, message, "remove `divisions`");
-            }
-            mesh(reader)
+    let key = one_of(reader, (["corners", "surface", "mesh"], "surface"), help)?;
+    if key == "mesh" {
+        if let Some(node) = reader.node("divisions") {
+            let message = format!("{} has a `mesh`, which has its own elements", reader.what);
+            return context.fail(node.span, message, "remove `divisions`");
         }
-        [key] => {
-            if let Some((unused, node)) =
-                ["group", "scale"].iter().find_map(|key| Some((key, reader.node(key)?)))
-            {
-                let message = format!("{} has `{unused}`, which is used with a `mesh` only", reader.what);
-                return context.fail(node.span, message, format!("remove `{unused}`"));
-            }
-            let Some(node) = reader.node("divisions") else {
-                let message = format!("{} lacks `divisions`", reader.what);
-                return context.fail(
-                    reader.name,
-                    message,
-                    "add `divisions = [8, 4]`: elements along u and v",
-                );
-            };
-            let divisions = divisions::<2>(reader, node, "[8, 4]")?;
-            let surface = if key == "corners" { corners(reader)? } else { expressions(reader)? };
-            patch(reader, &surface, divisions).map(|mesh| (mesh, None))
-        }
-        [] => context.fail(reader.name, format!("{} has no surface", reader.what), help),
-        [_, second, ..] => {
-            let span = reader.node(second).map_or(reader.name, |node| node.span);
-            context.fail(span, format!("{} has several surfaces", reader.what), help)
+        return mesh(reader);
+    }
+    if let Some((unused, node)) = ["group", "scale"].iter().find_map(|key| Some((key, reader.node(key)?))) {
+        let message = format!("{} has `{unused}`, which is used with a `mesh` only", reader.what);
+        return context.fail(node.span, message, format!("remove `{unused}`"));
+    }
+    let Some(node) = reader.node("divisions") else {
+        let message = format!("{} lacks `divisions`", reader.what);
+        return context.fail(reader.name, message, "add `divisions = [8, 4]`: elements along u and v");
+    };
+    let divisions = divisions::<2>(reader, node, "[8, 4]")?;
+    let surface = if key == "corners" { corners(reader)? } else { expressions(reader)? };
+    match patch(surface, divisions) {
+        Ok(mesh) => Some((mesh, None)),
+        Err(PatchFault([u, v])) => {
+            let message = format!(
+                "{} has no normal at u = {u:.4}, v = {v:.4}: its sides are parallel or have no length there",
+                reader.what
+            );
+            let help = "elements have four corners: leave out the pole of a surface, or use a mesh";
+            context.fail(reader.node(key)?.span, message, help)
         }
     }
-}
-
-/// Most elements along one side of a patch.
-const MAX_DIVISIONS: f64 = 2000.0;
-
-/// Numbers of elements along each coordinate.
-pub(super) fn divisions<const COUNT: usize>(
-    reader: &Reader<'_, '_>,
-    node: &Node,
-    example: &str,
-) -> Option<[usize; COUNT]> {
-    let what = reader.words("divisions");
-    let numbers = reader.context.numbers::<COUNT>(node, &what)?;
-    if let Some(wrong) = numbers.iter().find(|n| n.fract() != 0.0 || !(1.0..=MAX_DIVISIONS).contains(*n)) {
-        let message = format!("{what} must be whole numbers from 1 to {MAX_DIVISIONS}, not {wrong}");
-        let help = format!("write for example `divisions = {example}`");
-        return reader.context.fail(node.span, message, help);
-    }
-    Some(numbers.map(|number| number as usize))
 }
 
 /// Position at u and v with its derivatives by both.
@@ -363,113 +320,34 @@ fn expressions(reader: &Reader<'_, '_>) -> Option<PointOf> {
     }))
 }
 
-/// An expression that names nothing but these arguments and the parameters.
-pub(super) fn formula(reader: &Reader<'_, '_>, node: &Node, what: &str, known: &[&str]) -> Option<Formula> {
-    let formula = reader.context.own_formula(node, what)?;
-    let unknown = formula.arguments().iter().find(|name| !known.contains(&name.text.as_str()));
-    let is_of_time = formula.depends_on_time() && !known.contains(&"t");
-    if unknown.is_none() && !is_of_time {
-        return Some(formula);
-    }
-    let name = unknown.map_or("t", |name| name.text.as_str());
-    let message = format!("{what} cannot name `{name}`");
-    let help = format!("it may contain {} and the parameters", suggest::list(known.to_vec()));
-    let near = suggest::help(name, known.iter().copied());
-    reader
-        .context
-        .report(Problem::error(node.span, message).label("unknown here").help(help).maybe_help(near));
-    None
-}
-
-fn patch(reader: &Reader<'_, '_>, surface: &PointOf, [m, n]: [usize; 2]) -> Option<ShellMesh> {
-    let (mut positions, mut places, mut normals) = (Vec::new(), Vec::new(), Vec::new());
-    for j in 0..=n {
-        for i in 0..=m {
-            let place = [i as f64 / m as f64, j as f64 / n as f64];
-            let [position, along, across] = surface(place[0], place[1]);
-            let normal = along.cross(&across);
-            let size = along.norm() * across.norm();
-            if !(normal.norm() > 1e-8 * size && position.iter().all(|x| x.is_finite())) {
-                let message = format!(
-                    "{} has no normal at u = {:.4}, v = {:.4}: its sides are parallel or have no length there",
-                    reader.what, place[0], place[1]
-                );
-                let help = "elements have four corners: leave out the pole of a surface, or use a mesh";
-                let span = ["surface", "corners"].iter().find_map(|key| reader.node(key));
-                return reader.context.fail(span.map_or(reader.name, |node| node.span), message, help);
-            }
-            positions.push(position);
-            places.push(place);
-            normals.push(normal.normalize());
-        }
-    }
-    let node = |i: usize, j: usize| j * (m + 1) + i;
-    let element = |k: usize| {
-        let (i, j) = (k % m, k / m);
-        [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
-    };
-    let sides: [Vec<usize>; 4] = [
-        (0..=n).map(|j| node(0, j)).collect(),
-        (0..=n).map(|j| node(m, j)).collect(),
-        (0..=m).map(|i| node(i, 0)).collect(),
-        (0..=m).map(|i| node(i, n)).collect(),
-    ];
-    let sets: BTreeMap<String, Vec<usize>> = SIDES.map(str::to_owned).into_iter().zip(sides).collect();
-    let elements = (0..m * n).map(element).collect();
-    Some(ShellMesh { positions, places: Some(places), normals: Some(normals), elements, sets })
-}
-
-fn mesh(reader: &Reader<'_, '_>) -> Option<(ShellMesh, Option<Layer>)> {
+fn mesh(reader: &Reader<'_, '_>) -> Option<(MeshedPart, Option<Layer>)> {
     let (context, node) = (reader.context, reader.node("mesh")?);
-    let path = reader.text("mesh")?;
     let what = reader.words("mesh");
-    let fail =
-        |message: String, help: &str| context.fail::<()>(node.span, format!("{what}: {message}"), help);
-    let text = context.file_text(node, path.value, &what)?;
-    let extension = path.value.rsplit_once('.').map_or("", |(_, extension)| extension);
-    let is_surface = |shape: MeshShape| matches!(shape, MeshShape::Triangle3 | MeshShape::Quadrilateral4);
-    let group = reader.text("group").map(|group| group.value.to_owned());
-    let read = lissom_mesh::read(text.as_bytes(), extension)
-        .and_then(|mesh| mesh.part(group.as_deref(), is_surface));
-    let mut mesh = match read {
-        Ok(mesh) => mesh,
-        Err(error) => {
-            fail(error.to_string(), "see docs/shells.md for what is read of meshes");
-            return None;
-        }
+    let take = |mesh: Mesh, group: Option<&str>| {
+        let part = mesh.part(group, MeshShape::is_surface)?;
+        Ok(((), part))
     };
-    if mesh.elements.is_empty() {
-        fail("it has no triangles or quadrilaterals".to_owned(), "mesh the surface, or name another `group`");
-        return None;
-    }
-    if let Some((first, others)) = mesh.notes.split_first() {
-        let more =
-            if others.is_empty() { String::new() } else { format!("; {} more are left out", others.len()) };
-        let problem = Problem::warning(node.span, format!("{what} is read in part: {first}{more}"));
-        context.report(problem.help("check that nothing of the surface is missing: `lissom view --initial`"));
-    }
+    let ((), mut mesh) = file(reader, ("shells.md", "surface"), take)?;
     let scale = reader.number("scale")?.value;
     // Other lengths than metres mean other units of its material.
     let layer = layer_of_file(&mesh, node.span).filter(|_| scale == 1.0);
     mesh.orient();
     let joins = reader.flag("join")?.value;
-    for fault in mesh.surface_faults() {
-        match fault.severity() {
-            // Nodes at one position become one.
-            Severity::Error if joins && fault.kind == MeshFaultKind::TornMesh => {}
-            Severity::Error => {
-                fail(fault.to_string(), "mend the mesh, or set `join = true` for nodes at the same position");
-                return None;
-            }
-            Severity::Warning => context.report(Problem::warning(node.span, format!("{what}: {fault}"))),
-            Severity::Note => {}
-        }
+    let faults = mesh.surface_faults();
+    // Nodes at one position become one.
+    let is_error = |fault: &&MeshFault| {
+        fault.severity() == Severity::Error && !(joins && fault.kind == MeshFaultKind::TornMesh)
+    };
+    if let Some(fault) = faults.iter().find(is_error) {
+        let help = "mend the mesh, or set `join = true` for nodes at the same position";
+        return context.fail(node.span, format!("{what}: {fault}"), help);
     }
-    if mesh.elements.iter().any(|element| element.shape == MeshShape::Triangle3) {
-        mesh = mesh.divided_into_quadrilaterals();
+    for (fault, count) in MeshFault::worst_of_kinds(&faults, Severity::Warning) {
+        let others = if count > 1 { format!(" (the worst of {count})") } else { String::new() };
+        context.report(Problem::warning(node.span, format!("{what}: {fault}{others}")));
     }
-    let frame = context.frame(reader.scope)?;
-    Some((of_mesh(&mesh, &frame, scale), layer))
+    let mesh = mesh.divided_into_quadrilaterals();
+    Some((MeshedPart::of_surface(&mesh, &context.frame(reader.scope)?, scale), layer))
 }
 
 /// The layer that a file gives to all elements of its mesh; none if it has no section, or several.
@@ -480,153 +358,6 @@ fn layer_of_file(mesh: &Mesh, span: Span) -> Option<Layer> {
     let ply = Ply::isotropic(1.0, material.young?, material.poisson?, material.density?);
     let thickness = Formula::of_constant(section.thickness?);
     is_whole.then_some(Layer { thickness, span, ply })
-}
-
-fn of_mesh(mesh: &Mesh, frame: &Motion, scale: f64) -> ShellMesh {
-    let position = |own: &[f64; 3]| frame.transform_point(&(scale * Vector3::from(*own)));
-    let mut sets: BTreeMap<String, Vec<usize>> = mesh.node_sets.clone();
-    for (name, elements) in &mesh.element_sets {
-        sets.entry(name.clone()).or_insert_with(|| mesh.nodes_of(elements));
-    }
-    let corners = |nodes: &[usize]| <[usize; 4]>::try_from(nodes).ok();
-    ShellMesh {
-        positions: mesh.positions.iter().map(position).collect(),
-        places: None,
-        normals: None,
-        elements: mesh.elements.iter().filter_map(|element| corners(&element.nodes)).collect(),
-        sets,
-    }
-}
-
-/// Nodes at the same position as one: which are kept, and the new number of each.
-pub(super) fn coincident(positions: &[Vector3]) -> (Vec<usize>, Vec<usize>) {
-    let size = positions.iter().fold(0.0_f64, |most, position| most.max(position.amax()));
-    let near = SAME * size;
-    let mut order: Vec<usize> = (0..positions.len()).collect();
-    // Along no axis of a regular mesh, where many nodes would have one place.
-    let along: Vec<f64> = positions.iter().map(|at| at.dot(&Vector3::new(0.571, 0.618, 0.539))).collect();
-    order.sort_by(|&a, &b| along[a].total_cmp(&along[b]));
-    let mut first: Vec<usize> = (0..positions.len()).collect();
-    for (k, &node) in order.iter().enumerate() {
-        for &other in &order[k + 1..] {
-            let apart = positions[other] - positions[node];
-            if along[other] - along[node] > near {
-                break;
-            }
-            if apart.norm() <= near {
-                let kept = first[node].min(first[other]);
-                (first[node], first[other]) = (kept, kept);
-            }
-        }
-    }
-    let kept: Vec<usize> = (0..first.len()).filter(|&node| first[node] == node).collect();
-    let mut renumbered = vec![0; first.len()];
-    kept.iter().enumerate().for_each(|(new, &old)| renumbered[old] = new);
-    (kept, first.iter().map(|&node| renumbered[node]).collect())
-}
-
-/// Makes nodes at the same position one.
-fn join(mesh: &mut ShellMesh) {
-    let (kept, numbers) = coincident(&mesh.positions);
-    let number = |node: usize| numbers[node];
-    let first: Vec<usize> = numbers.iter().map(|&new| kept[new]).collect();
-    // Along a fold the normals of the two sides differ: then they are those of the elements.
-    if let Some(normals) = &mesh.normals
-        && (0..first.len()).any(|node| normals[node].dot(&normals[first[node]]) < 0.999)
-    {
-        mesh.normals = None;
-    }
-    mesh.elements.iter_mut().flatten().for_each(|node| *node = number(*node));
-    for set in mesh.sets.values_mut() {
-        for node in set.iter_mut() {
-            *node = number(*node);
-        }
-        set.sort_unstable();
-        set.dedup();
-    }
-    mesh.positions = kept.iter().map(|&node| mesh.positions[node]).collect();
-    if let Some(places) = &mut mesh.places {
-        *places = kept.iter().map(|&node| places[node]).collect();
-    }
-    if let Some(normals) = &mut mesh.normals {
-        *normals = kept.iter().map(|&node| normals[node]).collect();
-    }
-}
-
-/// Adds the set of all nodes, and reads `sets` of nodes at these positions.
-pub(super) fn sets(
-    reader: &Reader<'_, '_>,
-    positions: &[Vector3],
-    sets: &mut BTreeMap<String, Vec<usize>>,
-) -> Option<()> {
-    let context = reader.context;
-    let of_file = sets.insert(ALL.to_owned(), (0..positions.len()).collect());
-    if let Some(count) = of_file.map(|own| own.len()).filter(|&count| count < positions.len()) {
-        let all = positions.len();
-        let message =
-            format!("the mesh of {} has a set `{ALL}` of {count} nodes, not of its {all}", reader.what);
-        let help = "this name means all nodes: give the set in the file another one";
-        return context.fail(reader.name, message, help);
-    }
-    let Some(node) = reader.node("sets") else { return Some(()) };
-    let Some(table) = node.table() else {
-        return context.wrong_type(node, &reader.words("sets"), "a table of sets");
-    };
-    for (name, entry) in table {
-        let what = format!("set `{name}` of {}", reader.what);
-        if let Some(present) = sets.get(name) {
-            let of_all = if name == ALL { ", that of all its nodes" } else { "" };
-            let count = present.len();
-            let message = format!("{} has another set `{name}` of {count} nodes{of_all}", reader.what);
-            return context.fail(entry.key, message, "give this one another name");
-        }
-        let own = Reader::open(context, &entry.node, (what.clone(), entry.node.span), Shape::set_keys())?;
-        let place = |key: &str| match own.node(key) {
-            Some(node) => context.place(node, &own.words(key)).map(|place| Some(place.value)),
-            None => Some(None),
-        };
-        let (near, center, from, to) = (place("near")?, place("center")?, place("from")?, place("to")?);
-        let all = positions.iter().enumerate();
-        let found: Vec<usize> = match (near, center, from, to) {
-            (Some(near), None, None, None) => {
-                let distance = |position: &Vector3| (position - near).norm();
-                let found = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
-                found.map(|(node, _)| node).into_iter().collect()
-            }
-            (None, Some(center), None, None) => {
-                let Some(radius) = own.number("radius") else {
-                    return context.fail(
-                        entry.node.span,
-                        format!("{what} lacks `radius`"),
-                        "add `radius = …`",
-                    );
-                };
-                let is_within = |position: &Vector3| (position - center).norm() <= radius.value;
-                all.filter(|(_, position)| is_within(position)).map(|(node, _)| node).collect()
-            }
-            (None, None, Some(from), Some(to)) => {
-                // Along the axes in which it is written.
-                let frame = context.frame(own.scope)?;
-                let [from, to] = [from, to].map(|corner| frame.inverse_transform_point(&corner));
-                let (low, high) = (from.inf(&to), from.sup(&to));
-                let slack = 1e-6 * (high - low).norm();
-                let is_within = |position: &Vector3| {
-                    let position = frame.inverse_transform_point(position);
-                    (0..3).all(|k| position[k] >= low[k] - slack && position[k] <= high[k] + slack)
-                };
-                all.filter(|(_, position)| is_within(position)).map(|(node, _)| node).collect()
-            }
-            _ => {
-                let help = "write `near`, or `center` and `radius`, or `from` and `to`";
-                return context.fail(entry.node.span, format!("{what} is not one region"), help);
-            }
-        };
-        if found.is_empty() {
-            return context.fail(entry.node.span, format!("{what} contains no node"), "make it larger");
-        }
-        sets.insert(name.clone(), found);
-    }
-    Some(())
 }
 
 /// The layers, by the keys or else as in the file of the mesh.
@@ -728,11 +459,12 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer
 
 fn loads(reader: &Reader<'_, '_>) -> Option<Vec<AreaLoad>> {
     let mut loads = Vec::new();
-    let known = ["u", "v", "t"];
+    let (known, axes) = (["u", "v", "t"], reader.context.frame(reader.scope)?);
     for (key, is_on_top) in [("pressure", false), ("pressure_on_top", true)] {
         if let Some(node) = reader.node(key) {
-            let components = vec![formula(reader, node, &reader.words(key), &known)?];
-            loads.push(AreaLoad { components, is_on_top, axes: Motion::identity(), span: node.span });
+            let components =
+                vec![formula(reader, node, &reader.words(key), &["u", "v", "t", "x", "y", "z"])?];
+            loads.push(AreaLoad { components, is_on_top, axes, span: node.span });
         }
     }
     if let Some(node) = reader.node("force_per_area") {
@@ -740,12 +472,7 @@ fn loads(reader: &Reader<'_, '_>) -> Option<Vec<AreaLoad>> {
         let list = reader.context.list(node, 3, &what)?;
         let read: Vec<_> = list.iter().map(|entry| formula(reader, entry, &what, &known)).collect();
         let components = read.into_iter().collect::<Option<_>>()?;
-        loads.push(AreaLoad {
-            components,
-            is_on_top: false,
-            axes: reader.context.frame(reader.scope)?,
-            span: node.span,
-        });
+        loads.push(AreaLoad { components, is_on_top: false, axes, span: node.span });
     }
     Some(loads)
 }
@@ -757,7 +484,7 @@ const MAX_WARP: f64 = 0.26;
 
 fn check(reader: &Reader<'_, '_>, shell: &Shell, is_patch: bool) -> Option<()> {
     let context = reader.context;
-    for (index, element) in shell.mesh.elements.iter().enumerate() {
+    for (index, element) in shell.mesh.quadrilaterals().enumerate() {
         for layer in &shell.layers {
             let thickness = layer.thickness_at(shell.mesh.middle(index));
             if !(thickness > 0.0 && thickness.is_finite()) {
@@ -820,7 +547,7 @@ fn check(reader: &Reader<'_, '_>, shell: &Shell, is_patch: bool) -> Option<()> {
 /// Warns of elements of a patch that are long or warped; those of meshes are reported with their faults.
 fn warn_of_shapes(reader: &Reader<'_, '_>, shell: &Shell) {
     let (mut aspect, mut warp) = (0.0_f64, 0.0_f64);
-    for element in &shell.mesh.elements {
+    for element in shell.mesh.quadrilaterals() {
         let p = element.map(|node| shell.mesh.positions[node]);
         let sides = [0, 1, 2, 3].map(|i| (p[(i + 1) % 4] - p[i]).norm());
         aspect = aspect.max(
@@ -845,68 +572,5 @@ fn warn_of_shapes(reader: &Reader<'_, '_>, shell: &Shell) {
         reader.context.report(
             Problem::warning(span, message).help("use more elements where the surface is curved twice"),
         );
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use crate::lower::registry::registry;
-    use crate::{Document, Library, ModelText};
-
-    const PLATE: &str = "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*Element, type=S4, elset=P\n1, 1, 2, 3, 4\n\
-                         *Shell section, elset=P, material=M\n0.01\n*Material, name=M\n*Elastic\n2e11, 0.3\n*Density\n7800\n";
-
-    fn document(shell: &str, mesh: &str) -> Result<Document, String> {
-        let text = format!(
-            "lissom = 1\n[shells.p]\nmesh = \"p.inp\"\n{shell}\n[analysis]\nkind = \"dynamics\"\nend = 1\n"
-        );
-        let library = Library::of_texts([("p.inp".to_owned(), mesh.to_owned())]);
-        let read = ModelText::read_with(&text, "model.toml", &[], Arc::new(library));
-        let document = read.and_then(|text| text.document(&registry(), &[]));
-        document.map_err(|report| report.render(false))
-    }
-
-    #[test]
-    fn a_section_of_the_file_is_that_of_the_shell() {
-        let shell = &document("", PLATE).expect("a good model").shells[0];
-        assert_eq!((shell.thickness(0), shell.layers[0].ply.young), (0.01, [2e11; 2]));
-        // Of a file in millimetres the units of the material are unknown.
-        assert!(document("scale = 0.001", PLATE).expect_err("no section").contains("lacks `thickness`"));
-        let part = PLATE.replace("elset=P\n1,", "elset=Q\n1,").replace("*Shell", "*Elset, elset=P\n*Shell");
-        assert!(document("", &part).is_err());
-    }
-
-    #[test]
-    fn what_is_not_read_of_a_mesh_is_reported() {
-        let warnings = |mesh: &str| document("", mesh).expect("a good model").warnings.render(false);
-        assert!(!warnings(PLATE).contains("read in part"));
-        let more = PLATE.replace(
-            "*Material",
-            "*Element, type=B31, elset=B\n2, 1, 2\n*Element, type=MASS, elset=C\n3, 1\n*Material",
-        );
-        assert!(warnings(&more).contains("read in part"), "{}", warnings(&more));
-    }
-
-    #[test]
-    fn sides_that_do_not_lie_at_each_other_are_reported() {
-        let joint = |tip: &str| {
-            let square = |name: &str, x: f64| {
-                format!(
-                    "[shells.{name}]\ncorners = [[{x}, 0, 0], [{0}, 0, 0], [{0}, 1, 0], [{x}, 1, 0]]\ndivisions = [2, 2]\nthickness = 0.01\nmaterial = \"m\"\n",
-                    x + 1.0
-                )
-            };
-            let text = format!(
-                "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0.3\ndensity = 1000\n{}{}[joints.j]\nkind = \"clamp\"\nbase = \"a.east\"\n\
-                 tip = \"b.{tip}\"\n[analysis]\nkind = \"dynamics\"\nend = 1\n",
-                square("a", 0.0),
-                square("b", 1.0)
-            );
-            Document::parse(&text, "model.toml", &registry()).expect("a good model").warnings.render(false)
-        };
-        assert!(!joint("west").contains("rigid arms"));
-        assert!(joint("east").contains("rigid arms"), "{}", joint("east"));
     }
 }

@@ -2,16 +2,20 @@
 
 use std::sync::Arc;
 
-use lissom_flexible::solid::pressure::FacePressure;
+use lissom_flexible::pressure::{FacePressure, face_points};
 use lissom_flexible::solid::volume::{SolidVolume, VolumeDescription, solid_volume};
 use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::kinematics::NodeId;
+use lissom_motion::Vector3;
 use lissom_system::Builder;
 
 use super::names::Names;
 use super::order::by_name;
-use super::shells::of_load;
+use super::pressures::pressure;
+use super::shells::node_name;
 use crate::document::{Document, ElasticSolid};
-use crate::outputs::solid_nodes::BuiltSolid;
+use crate::outputs::meshes::BuiltSolid;
+use crate::reading::mesh_nodes::BuiltNodes;
 use crate::text::report::Problem;
 
 /// Adds all solids.
@@ -23,20 +27,10 @@ pub(super) fn add(
 ) {
     for solid in by_name(&document.elastic_solids, |solid| &solid.name.value) {
         let name = &solid.name.value;
-        let name_of = |node: usize| match &solid.mesh.places {
-            Some(places) => {
-                let [u, v, w] = places[node];
-                format!("{name}@{u:.4},{v:.4},{w:.4}")
-            }
-            None => format!("{name}.{}", node + 1),
-        };
         let description = VolumeDescription {
-            positions: &solid.mesh.positions,
-            names: &name_of,
-            tetrahedra: &solid.mesh.tetrahedra,
-            hexahedra: &solid.mesh.hexahedra,
-            law: solid.law,
-            density: solid.density,
+            mesh: &solid.mesh,
+            names: &|node| node_name(name, &solid.mesh, node),
+            material: solid.material,
         };
         let (contribution, volume) = match solid_volume(builder.model(), &description) {
             Ok(built) => built,
@@ -48,7 +42,8 @@ pub(super) fn add(
         };
         builder.add(contribution);
         problems.extend(add_pressures(document, solid, &volume, builder).err());
-        names.meshes.solids.insert(name.clone(), BuiltSolid { mesh: Arc::clone(&solid.mesh), volume });
+        let nodes = BuiltNodes { mesh: Arc::clone(&solid.mesh), nodes: volume.nodes };
+        names.meshes.solids.insert(name.clone(), BuiltSolid { nodes, elements: volume.elements });
     }
 }
 
@@ -59,19 +54,24 @@ fn add_pressures(
     builder: &mut Builder,
 ) -> Result<(), Problem> {
     for load in &solid.pressures {
-        let function = of_load(document, load.value.with_arguments(&[])).map_err(|time| {
-            let message =
-                format!("a pressure on solid `{}` is not a finite number at t = {time}", solid.name.value);
-            Problem::error(load.span, message)
-        })?;
         let mut contribution = Contribution::to(builder.model());
-        for face in &load.triangles {
-            let nodes = face.map(|node| volume.nodes[node]);
-            contribution = contribution.with(FacePressure::on_triangle(nodes, Arc::clone(&function)));
-        }
-        for face in &load.quadrilaterals {
-            let nodes = face.map(|node| volume.nodes[node]);
-            contribution = contribution.with(FacePressure::on_quadrilateral(nodes, Arc::clone(&function)));
+        let (triangles, quadrilaterals) = (face_points::<6>(), face_points::<8>());
+        for face in &load.faces {
+            let middle = solid.mesh.positions_of(face).iter().sum::<Vector3>() / face.len() as f64;
+            let found = pressure(document, (&load.value, &load.axes), &middle, |_| 0.0);
+            let pressure = found.map_err(|time| {
+                let name = &solid.name.value;
+                let message = format!("a pressure on solid `{name}` is not a finite number at t = {time}");
+                Problem::error(load.span, message)
+            })?;
+            let ids: Vec<NodeId> = face.iter().map(|&node| volume.nodes[node]).collect();
+            contribution = match (<[NodeId; 6]>::try_from(&*ids), <[NodeId; 8]>::try_from(&*ids)) {
+                (Ok(six), _) => contribution.with(FacePressure::new(six, Arc::clone(&triangles), pressure)),
+                (_, Ok(eight)) => {
+                    contribution.with(FacePressure::new(eight, Arc::clone(&quadrilaterals), pressure))
+                }
+                _ => contribution,
+            };
         }
         builder.add(contribution);
     }

@@ -17,6 +17,7 @@ mod output_channels;
 mod over_argument;
 mod parts;
 mod ports;
+mod pressures;
 mod readings;
 pub mod registry;
 mod resource_limits;

@@ -92,7 +92,7 @@ pub(super) fn velocities(document: &Document, names: &Names, system: &System, at
         }
     }
     for (name, own) in names.meshes.all() {
-        for &node in own.nodes {
+        for &node in &own.nodes {
             set(node, &|frame| initial_motion(document.initial_motion(name), frame));
         }
     }

@@ -3,9 +3,10 @@
 
 use std::sync::Arc;
 
+use lissom_mesh::MeshedPart;
+
 use crate::document::{AnalysisKind, Document, ElasticSolid};
 use crate::files;
-use crate::reading::shell_mesh::ShellMesh;
 use crate::text::report::{Problem, Report};
 
 /// Memory of a node of a beam with its elements, its tangent, its factors and the motion of the run [bytes]: lines of
@@ -41,7 +42,7 @@ pub fn check_run(document: &Document) -> Result<(), Report> {
 
 fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut Vec<Problem>) {
     let nodes = |beam: &crate::document::Beam| beam.elements.value as f64 * beam.order as f64;
-    let in_shell = |shell: &Arc<ShellMesh>| PER_NODE * shell.positions.len() as f64;
+    let in_shell = |shell: &Arc<MeshedPart>| PER_NODE * shell.positions.len() as f64;
     let of_shells = document.shells.iter().map(|shell| in_shell(&shell.mesh)).sum::<f64>();
     // A node has half the unknowns of one of a beam, and more neighbours.
     let in_solid = |solid: &ElasticSolid| 2.0 * PER_NODE * solid.mesh.positions.len() as f64;
@@ -76,7 +77,7 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
         let message = format!(
             "the model requires about {} of memory, most of it for the {} elements of solid `{}`; available are {}",
             size(memory),
-            solid.mesh.element_count(),
+            solid.mesh.elements.len(),
             solid.name.value,
             size(available)
         );

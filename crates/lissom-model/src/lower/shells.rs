@@ -2,24 +2,34 @@
 
 use std::sync::Arc;
 
-use lissom_flexible::shell::pressure::Pressure;
+use lissom_flexible::pressure::{FacePressure, face_points};
 use lissom_flexible::shell::section::Ply;
 use lissom_flexible::shell::surface::{ShellSection, ShellSurface, SurfaceDescription, shell_surface};
 use lissom_mechanics::elements::{Attached, Contribution, force};
 use lissom_mechanics::registry::{Function, Parameters, Value};
+use lissom_mesh::MeshedPart;
 use lissom_motion::Vector3;
 use lissom_system::Builder;
 
 use super::names::Names;
 use super::order::by_name;
+use super::pressures;
 use crate::document::{AreaLoad, Document, Shell, area_arguments};
 use crate::expression::{Expression, Formula};
 use crate::functions::{Ramp, of_expression};
-use crate::outputs::shell_nodes::BuiltShell;
+use crate::outputs::meshes::BuiltShell;
+use crate::reading::mesh_nodes::BuiltNodes;
 use crate::text::report::Problem;
 
 /// Instants of the analysis at which a load must be finite.
 const INSTANTS: u32 = 16;
+
+/// Name of a node: its place, or its number in a mesh from a file.
+pub(super) fn node_name(part: &str, mesh: &MeshedPart, node: usize) -> String {
+    let Some(place) = mesh.place(node) else { return format!("{part}.{}", node + 1) };
+    let place: Vec<String> = place.iter().map(|value| format!("{value:.4}")).collect();
+    format!("{part}@{}", place.join(","))
+}
 
 /// Adds all shells.
 pub(super) fn add(
@@ -30,17 +40,12 @@ pub(super) fn add(
 ) {
     for shell in by_name(&document.shells, |shell| &shell.name.value) {
         let name = &shell.name.value;
-        let name_of = |node: usize| match &shell.mesh.places {
-            Some(places) => format!("{name}@{:.4},{:.4}", places[node][0], places[node][1]),
-            None => format!("{name}.{}", node + 1),
-        };
+        let name_of = |node: usize| node_name(name, &shell.mesh, node);
         let (contribution, surface) = shell_surface(
             builder.model(),
             &SurfaceDescription {
-                positions: &shell.mesh.positions,
+                mesh: &shell.mesh,
                 names: &name_of,
-                elements: &shell.mesh.elements,
-                normals: shell.mesh.normals.as_deref(),
                 fold_angle: shell.fold_angle,
                 // Elements of a mesh have no common direction of their own.
                 direction: shell.direction.or(shell.mesh.places.is_none().then(Vector3::x)),
@@ -57,7 +62,8 @@ pub(super) fn add(
         for load in &shell.loads {
             problems.extend(add_load(document, (shell, load), &surface, builder).err());
         }
-        let built = BuiltShell { mesh: Arc::clone(&shell.mesh), surface, plies, offset: shell.offset };
+        let nodes = BuiltNodes { mesh: Arc::clone(&shell.mesh), nodes: surface.nodes.clone() };
+        let built = BuiltShell { nodes, surface, plies, offset: shell.offset };
         names.meshes.shells.insert(name.clone(), built);
     }
 }
@@ -68,21 +74,27 @@ fn add_load(
     surface: &ShellSurface,
     builder: &mut Builder,
 ) -> Result<(), Problem> {
-    if let [pressure] = load.components.as_slice() {
+    if let [formula] = load.components.as_slice() {
         let mut contribution = Contribution::to(builder.model());
-        for (index, element) in shell.mesh.elements.iter().enumerate() {
-            let function = function(document, (shell, load), pressure, shell.mesh.middle(index))?;
+        let points = face_points();
+        for (index, element) in shell.mesh.quadrilaterals().enumerate() {
+            let place = shell.mesh.middle(index);
+            let middle = 0.25 * element.iter().map(|&node| shell.mesh.positions[node]).sum::<Vector3>();
+            let number = |name: &str| place[usize::from(name == "v")];
+            let pressure = pressures::pressure(document, (formula, &load.axes), &middle, number);
+            let pressure = pressure.map_err(|time| not_finite(shell, load, place, time))?;
             let mut nodes = element.map(|node| surface.nodes[node]);
-            if load.is_on_top {
+            // Along the normal is against that of the other side.
+            if !load.is_on_top {
                 nodes.reverse();
             }
-            contribution = contribution.with(Pressure::new(nodes, function));
+            contribution = contribution.with(FacePressure::new(nodes, Arc::clone(&points), pressure));
         }
         builder.add(contribution);
         return Ok(());
     }
     for (node, &area) in surface.areas.iter().enumerate() {
-        let place = shell.mesh.places.as_ref().map_or([0.5; 2], |places| places[node]);
+        let place = shell.mesh.place(node).map_or([0.5; 2], |place| [place[0], place[1]]);
         for (axis, component) in load.components.iter().enumerate() {
             let function = function(document, (shell, load), component, place)?;
             if function.is_constant() && function.value(document.analysis.end) == 0.0 {
@@ -110,13 +122,15 @@ fn function(
     place: [f64; 2],
 ) -> Result<Function, Problem> {
     let formula = formula.with_arguments(&area_arguments(formula, place));
-    of_load(document, formula).map_err(|time| {
-        let message = format!(
-            "a load per area of shell `{}` is not a finite number at u = {:.4}, v = {:.4}, t = {time}",
-            shell.name.value, place[0], place[1]
-        );
-        Problem::error(load.span, message)
-    })
+    of_load(document, formula).map_err(|time| not_finite(shell, load, place, time))
+}
+
+fn not_finite(shell: &Shell, load: &AreaLoad, [u, v]: [f64; 2], time: f64) -> Problem {
+    let name = &shell.name.value;
+    let message = format!(
+        "a load per area of shell `{name}` is not a finite number at u = {u:.4}, v = {v:.4}, t = {time}"
+    );
+    Problem::error(load.span, message)
 }
 
 /// A load as a function of time; constant loads grow in load steps. It must be finite during the analysis: otherwise an instant at which it

@@ -13,7 +13,7 @@ use lissom_motion::Vector3;
 use lissom_system::System;
 
 use super::frames::node_of;
-use super::shell_nodes::BuiltShell;
+use super::meshes::BuiltShell;
 use super::touched::Touched;
 use super::{Build, Evaluation, Found, OutputQuantity, Subjects};
 use crate::outputs::entry::Output;
@@ -99,7 +99,7 @@ fn of(output: &Output, subjects: &Subjects<'_>, what: What) -> Found {
         let message = format!("output `{}` is of a shell, and this is no node of one", output.name.value);
         return Err(Problem::error(node.span, message).help("name a node such as \"panel@0.5,1\""));
     };
-    let place = shell.nodes().one_index(node)?;
+    let place = shell.nodes.one_index(node)?;
     let mut corners = shell.corners(place);
     let whole: f64 = corners.iter().map(|corner| corner.share).sum();
     for corner in &mut corners {
@@ -112,12 +112,12 @@ fn of(output: &Output, subjects: &Subjects<'_>, what: What) -> Found {
 impl BuiltShell {
     /// The elements at a node.
     fn corners(&self, node: usize) -> Vec<Corner> {
-        let of = |(index, element): (usize, &[usize; 4])| {
+        let of = |(index, element): (usize, [usize; 4])| {
             let at = element.iter().position(|&own| own == node)?;
             let (element, plies) = (Arc::clone(&self.surface.elements[index]), self.plies_of(index));
             Some(Corner { share: element.area(), element, at, plies, offset: self.offset, turn: [1.0, 0.0] })
         };
-        self.mesh.elements.iter().enumerate().filter_map(of).collect()
+        self.nodes.mesh.quadrilaterals().enumerate().filter_map(of).collect()
     }
 }
 

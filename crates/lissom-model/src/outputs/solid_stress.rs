@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use lissom_flexible::solid::{CauchyStress, Hexahedron, Tetrahedron, principal, von_mises};
+use lissom_flexible::solid::{CauchyStress, SolidElement, principal, von_mises};
 use lissom_mechanics::kinematics::Kinematics;
 use lissom_system::System;
 
@@ -35,14 +35,8 @@ pub(crate) const KIND: Declaration = Declaration {
     build: Build::System("it is the mean over the elements at the node", of),
 };
 
-/// An element at a node.
-enum Corner {
-    Tetrahedron(Arc<Tetrahedron>),
-    Hexahedron(Arc<Hexahedron>),
-}
-
 /// Elements with the number of the node in each, and their volumes [m³].
-struct OfSolid(Vec<(Corner, usize, f64)>);
+struct OfSolid(Vec<(Arc<dyn SolidElement>, usize, f64)>);
 
 fn of(output: &Output, _: &System, subjects: &Subjects<'_>) -> Found {
     let (node, _) = node_of(output)?;
@@ -54,42 +48,33 @@ fn of(output: &Output, _: &System, subjects: &Subjects<'_>) -> Found {
         let message = format!("output `{}` is of a solid, and this is no node of one", output.name.value);
         return Err(Problem::error(node.span, message).help("name a node such as \"block@0.5,1,0\""));
     };
-    let place = solid.nodes().one_index(node)?;
-    let at = |nodes: &[usize]| nodes.iter().position(|&own| own == place);
-    let tetrahedra =
-        solid.mesh.tetrahedra.iter().zip(&solid.volume.tetrahedra).filter_map(|(nodes, element)| {
-            Some((Corner::Tetrahedron(Arc::clone(element)), at(nodes)?, element.volume()))
-        });
-    let hexahedra =
-        solid.mesh.hexahedra.iter().zip(&solid.volume.hexahedra).filter_map(|(nodes, element)| {
-            Some((Corner::Hexahedron(Arc::clone(element)), at(nodes)?, element.volume()))
-        });
-    Ok(Arc::new(OfSolid(tetrahedra.chain(hexahedra).collect())))
+    let place = solid.nodes.one_index(node)?;
+    let own = solid.nodes.mesh.elements.iter().zip(&solid.elements).filter_map(|(nodes, element)| {
+        let at = nodes.nodes.iter().position(|&own| own == place)?;
+        Some((Arc::clone(element), at, element.volume()))
+    });
+    Ok(Arc::new(OfSolid(own.collect())))
 }
 
 impl OfSolid {
     fn stress(&self, at: &Kinematics) -> CauchyStress {
         let whole: f64 = self.0.iter().map(|(.., volume)| volume).sum();
-        let own = |(corner, node, volume): &(Corner, usize, f64)| {
-            let stress = match corner {
-                Corner::Tetrahedron(element) => element.nodal_stresses(&element.positions(at))[*node],
-                Corner::Hexahedron(element) => element.nodal_stresses(&element.positions(at))[*node],
-            };
-            volume / whole * stress
-        };
-        self.0.iter().map(own).sum()
+        let mut sum = CauchyStress::zeros();
+        for (element, place, volume) in &self.0 {
+            element.visit_stresses(at, &mut |node, stress| {
+                if node == *place {
+                    sum += volume / whole * stress;
+                }
+            });
+        }
+        sum
     }
 }
 
 impl OutputQuantity for OfSolid {
     fn touched(&self, _: &System) -> Option<Touched> {
         let mut touched = Touched::default();
-        for (corner, ..) in &self.0 {
-            match corner {
-                Corner::Tetrahedron(element) => touched.nodes.extend(element.nodes()),
-                Corner::Hexahedron(element) => touched.nodes.extend(element.nodes()),
-            }
-        }
+        touched.nodes.extend(self.0.iter().flat_map(|(element, ..)| element.node_ids()));
         Some(touched)
     }
 

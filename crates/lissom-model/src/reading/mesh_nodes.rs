@@ -1,8 +1,9 @@
-//! Nodes of a mesh by sets and positions: those of shells and solids.
+//! Nodes of a mesh by sets and places: those of shells and solids.
 
-use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use lissom_mechanics::kinematics::NodeId;
+use lissom_mesh::MeshedPart;
 use lissom_motion::Vector3;
 
 use super::node_reference::{MeshPlace, NodeReference};
@@ -12,91 +13,75 @@ use crate::text::report::{Located, Problem};
 /// The set of all nodes.
 pub(crate) const ALL: &str = "all";
 
-/// Nodes of a shell or solid.
-pub trait NodeSets: Send + Sync {
-    /// What it is in messages.
-    fn word(&self) -> &'static str;
+/// What a part is in messages.
+pub(crate) fn word(mesh: &MeshedPart) -> &'static str {
+    if mesh.coordinates == 2 { "shell" } else { "solid" }
+}
 
-    /// Positions of the nodes [m].
-    fn positions(&self) -> &[Vector3];
-
-    /// Sets of nodes by name.
-    fn sets(&self) -> &BTreeMap<String, Vec<usize>>;
-
-    /// u and v of a node, and w in a solid; none of a mesh from a file.
-    fn fractions(&self, node: usize) -> Option<&[f64]>;
-
-    /// Sizes of the nodes to which their shares in a load are proportional.
-    fn sizes(&self, nodes: &[usize]) -> Vec<f64>;
-
-    /// Nodes of the part called `name` that a reference means: one by `u,v` or the name of a set.
-    ///
-    /// # Errors
-    /// What is wrong, and the remedy.
-    fn nodes_at(&self, name: &str, place: &MeshPlace) -> Result<Vec<usize>, (String, String)> {
-        let word = self.word();
-        let wanted = match place {
-            MeshPlace::Set(set) => {
-                return self.sets().get(set).cloned().ok_or_else(|| {
-                    let known: Vec<&str> = self.sets().keys().map(String::as_str).collect();
-                    let message = format!("{word} `{name}` has no set of nodes called `{set}`");
-                    (message, format!("its sets are {}", suggest::list(known)))
-                });
-            }
-            MeshPlace::Fractions(wanted) => wanted,
-        };
-        let distance = |own: &[f64]| own.iter().zip(wanted).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-        let nearest = (0..self.positions().len())
-            .filter_map(|node| self.fractions(node).map(|own| (node, own, distance(own))))
-            .min_by(|a, b| a.2.total_cmp(&b.2));
-        match nearest {
-            None => {
-                let message = format!("{word} `{name}` is a mesh, which has no u and v");
-                Err((message, "name a node in `sets`, as `tip = { near = [x, y, z] }`".to_owned()))
-            }
-            Some((_, own, _)) if own.len() != wanted.len() => {
-                let message = format!("{word} `{name}` has {} coordinates, not {}", own.len(), wanted.len());
-                let example = ["0.5,1", "0.5,1,0"][own.len() - 2];
-                Err((message, format!("write for example \"{name}@{example}\"")))
-            }
-            Some((node, _, distance)) if distance < 1e-6 => Ok(vec![node]),
-            Some((_, own, _)) => {
-                let place = MeshPlace::Fractions(wanted.clone()).to_string();
-                let own: Vec<String> = own.iter().map(|value| format!("{value:.6}")).collect();
-                let help = format!("the nearest is at {}; or choose `divisions` to suit", own.join(","));
-                Err((format!("{word} `{name}` has no node at {}", place.trim_start_matches('@')), help))
-            }
+/// Nodes of the part called `name` that a reference means: one by `u,v` or the name of a set.
+///
+/// # Errors
+/// What is wrong, and the remedy.
+pub(crate) fn nodes_at(
+    mesh: &MeshedPart,
+    name: &str,
+    place: &MeshPlace,
+) -> Result<Vec<usize>, (String, String)> {
+    let word = word(mesh);
+    let wanted = match place {
+        MeshPlace::Set(set) => {
+            return mesh.sets.get(set).cloned().ok_or_else(|| {
+                let known: Vec<&str> = mesh.sets.keys().map(String::as_str).collect();
+                let message = format!("{word} `{name}` has no set of nodes called `{set}`");
+                (message, format!("its sets are {}", suggest::list(known)))
+            });
+        }
+        MeshPlace::Fractions(wanted) => wanted,
+    };
+    let distance = |own: &[f64]| own.iter().zip(wanted).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let nearest = (0..mesh.positions.len())
+        .filter_map(|node| mesh.place(node).map(|own| (node, own, distance(own))))
+        .min_by(|a, b| a.2.total_cmp(&b.2));
+    match nearest {
+        None => {
+            let message = format!("{word} `{name}` is a mesh, which has no u and v");
+            Err((message, "name a node in `sets`, as `tip = { near = [x, y, z] }`".to_owned()))
+        }
+        Some((_, own, _)) if own.len() != wanted.len() => {
+            let message = format!("{word} `{name}` has {} coordinates, not {}", own.len(), wanted.len());
+            let example = ["0.5,1", "0.5,1,0"][own.len() - 2];
+            Err((message, format!("write for example \"{name}@{example}\"")))
+        }
+        Some((node, _, distance)) if distance < 1e-6 => Ok(vec![node]),
+        Some((_, own, _)) => {
+            let place = MeshPlace::Fractions(wanted.clone()).to_string();
+            let own: Vec<String> = own.iter().map(|value| format!("{value:.6}")).collect();
+            let help = format!("the nearest is at {}; or choose `divisions` to suit", own.join(","));
+            Err((format!("{word} `{name}` has no node at {}", place.trim_start_matches('@')), help))
         }
     }
+}
 
-    /// The mean position of the nodes that a reference means [m].
-    fn position_of(&self, place: &MeshPlace) -> Option<Vector3> {
-        let nodes = self.nodes_at("", place).ok().filter(|nodes| !nodes.is_empty())?;
-        Some(nodes.iter().map(|&node| self.positions()[node]).sum::<Vector3>() / nodes.len() as f64)
-    }
-
-    /// Share of each of these nodes in something that is spread over them. The sum is 1.
-    fn shares(&self, nodes: &[usize]) -> Vec<f64> {
-        let sizes = self.sizes(nodes);
-        let whole: f64 = sizes.iter().sum();
-        sizes.into_iter().map(|size| size / whole).collect()
-    }
+/// The mean position of the nodes that a reference means [m].
+pub(crate) fn position_of(mesh: &MeshedPart, place: &MeshPlace) -> Option<Vector3> {
+    let nodes = nodes_at(mesh, "", place).ok().filter(|nodes| !nodes.is_empty())?;
+    Some(nodes.iter().map(|&node| mesh.positions[node]).sum::<Vector3>() / nodes.len() as f64)
 }
 
 /// Nodes of a shell or solid as built.
-#[derive(Clone, Copy)]
-pub struct BuiltNodes<'a> {
+#[derive(Clone)]
+pub struct BuiltNodes {
     /// As the model describes them.
-    pub mesh: &'a dyn NodeSets,
+    pub mesh: Arc<MeshedPart>,
     /// The same nodes of the system.
-    pub nodes: &'a [NodeId],
+    pub nodes: Vec<NodeId>,
 }
 
-impl BuiltNodes<'_> {
+impl BuiltNodes {
     /// Indices of the nodes that a reference to the part means.
     pub(crate) fn indices(&self, reference: &Located<NodeReference>) -> Result<Vec<usize>, Problem> {
         let NodeReference::Mesh { part, place } = &reference.value else { return Ok(Vec::new()) };
-        self.mesh.nodes_at(part, place).map_err(|(message, help)| {
+        nodes_at(&self.mesh, part, place).map_err(|(message, help)| {
             Problem::error(reference.span, message).label("nothing can be attached here").help(help)
         })
     }
@@ -120,16 +105,16 @@ impl BuiltNodes<'_> {
 
     /// The node nearest to the mean of those at a place.
     pub(crate) fn middle(&self, place: &MeshPlace) -> Option<NodeId> {
-        let indices = self.mesh.nodes_at("", place).ok()?;
-        let mean = self.mesh.position_of(place)?;
-        let distance = |index: usize| (self.mesh.positions()[index] - mean).norm();
+        let indices = nodes_at(&self.mesh, "", place).ok()?;
+        let mean = position_of(&self.mesh, place)?;
+        let distance = |index: usize| (self.mesh.positions[index] - mean).norm();
         let nearest = indices.into_iter().min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
         Some(self.nodes[nearest])
     }
 
     /// The only node at a place; none for several.
     pub fn node_at(&self, place: &MeshPlace) -> Option<NodeId> {
-        match self.mesh.nodes_at("", place).ok()?[..] {
+        match nodes_at(&self.mesh, "", place).ok()?[..] {
             [index] => Some(self.nodes[index]),
             _ => None,
         }

@@ -6,7 +6,5 @@ pub(crate) mod local_tables;
 pub(crate) mod mesh_nodes;
 pub(crate) mod node_reference;
 pub(crate) mod reader;
-pub(crate) mod shell_mesh;
-pub(crate) mod solid_mesh;
 pub(crate) mod table_values;
 mod values;

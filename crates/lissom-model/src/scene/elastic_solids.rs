@@ -1,13 +1,16 @@
 //! Elastic solids as they look.
 
+use std::collections::BTreeMap;
+
 use lissom_flexible::solid::law::SolidModel;
 use lissom_mechanics::kinematics::NodeId;
+use lissom_mesh::kinds::SOLID_KINDS;
+use lissom_mesh::{MeshShape, MeshedPart};
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::places::Places;
 use crate::document::Document;
-use crate::reading::solid_mesh::SolidMesh;
 
 /// Cosine of the angle [36°] between faces up to which their common edge is round.
 const ROUND: f64 = 0.81;
@@ -21,12 +24,9 @@ pub struct ElasticSolid {
     pub nodes: Vec<NodeId>,
     /// Position of each node in the stress-free state [m].
     pub positions: Vec<[f64; 3]>,
-    /// Nodes of each tetrahedron among its nodes, in the order of Abaqus.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub tetrahedra: Vec<[usize; 10]>,
-    /// Nodes of each hexahedron.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub hexahedra: Vec<[usize; 20]>,
+    /// Nodes of each element among its nodes, in the order of Abaqus, by the name of the element's kind.
+    #[serde(default)]
+    pub cells: BTreeMap<String, Vec<Vec<usize>>>,
     /// Its surface as it is drawn: corners of quadrilaterals among its nodes, counterclockwise seen from outside; triangles have the last
     /// corner twice.
     pub elements: Vec<[usize; 4]>,
@@ -44,22 +44,23 @@ pub struct ElasticSolid {
     pub mass: f64,
 }
 
+/// Nodes of the elements of a shape.
+fn cells(mesh: &MeshedPart, shape: MeshShape) -> Vec<Vec<usize>> {
+    mesh.elements.iter().filter(|own| own.shape == shape).map(|own| own.nodes.clone()).collect()
+}
+
 /// Outer faces, divided at the middles of their sides.
-fn surface(mesh: &SolidMesh) -> Vec<[usize; 4]> {
-    let corner = |face: &[usize], i: usize| {
+fn surface(mesh: &MeshedPart) -> Vec<[usize; 4]> {
+    let of = |face: &Vec<usize>| {
         let corners = face.len() / 2;
-        let before = face[corners + (i + corners - 1) % corners];
-        [face[i], face[corners + i], before, before]
+        let corner = |i: usize| {
+            let before = face[corners + (i + corners - 1) % corners];
+            [face[i], face[corners + i], before, before]
+        };
+        let middle = [0, 1, 2, 3].map(|i| face[corners + i.min(corners - 1)]);
+        (0..corners).map(corner).chain([middle]).collect::<Vec<_>>()
     };
-    let triangles = mesh.triangles.iter().flat_map(|face| {
-        let corners = [0, 1, 2].map(|i| corner(face, i));
-        corners.into_iter().chain([[face[3], face[4], face[5], face[5]]])
-    });
-    let quadrilaterals = mesh.quadrilaterals.iter().flat_map(|face| {
-        let corners = [0, 1, 2, 3].map(|i| corner(face, i));
-        corners.into_iter().chain([[face[4], face[5], face[6], face[7]]])
-    });
-    triangles.chain(quadrilaterals).collect()
+    mesh.faces.iter().flat_map(of).collect()
 }
 
 /// Normals at the corners: the mean of those of the faces around the node that belong to one round surface.
@@ -89,21 +90,23 @@ pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<El
     let drawn = |solid: &crate::document::ElasticSolid| {
         let built = places.of.names.meshes.solids.get(&solid.name.value)?;
         let elements = surface(&solid.mesh);
-        let tetrahedra = built.volume.tetrahedra.iter().map(|element| element.volume()).sum::<f64>();
-        let volume = tetrahedra + built.volume.hexahedra.iter().map(|element| element.volume()).sum::<f64>();
+        let volume = built.elements.iter().map(|element| element.volume()).sum::<f64>();
         Some(ElasticSolid {
             name: solid.name.value.clone(),
-            nodes: built.volume.nodes.clone(),
+            nodes: built.nodes.nodes.clone(),
             positions: solid.mesh.positions.iter().map(|position| (*position).into()).collect(),
-            tetrahedra: solid.mesh.tetrahedra.clone(),
-            hexahedra: solid.mesh.hexahedra.clone(),
+            cells: SOLID_KINDS
+                .iter()
+                .map(|kind| (kind.word.to_owned(), cells(&solid.mesh, kind.shapes[1])))
+                .filter(|(_, cells)| !cells.is_empty())
+                .collect(),
             directors: directors(&solid.mesh.positions, &elements),
             elements,
-            is_neo_hookean: solid.law.model == SolidModel::NeoHookean,
-            shear: solid.law.shear,
-            bulk: solid.law.bulk,
+            is_neo_hookean: solid.material.law.model == SolidModel::NeoHookean,
+            shear: solid.material.law.shear,
+            bulk: solid.material.law.bulk,
             volume,
-            mass: solid.density * volume,
+            mass: solid.material.density * volume,
         })
     };
     document.elastic_solids.iter().filter_map(drawn).collect()

@@ -53,7 +53,7 @@ pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
         let built = places.of.names.meshes.shells.get(&shell.name.value)?;
         let count = shell.mesh.elements.len();
         let elements = &built.surface.elements;
-        let nodes = &built.surface.nodes;
+        let nodes = &built.nodes.nodes;
         let areas = elements.iter().map(|element| element.area());
         let mut directors: Vec<[[f64; 3]; 4]> =
             elements.iter().map(|element| element.directors().map(Into::into)).collect();
@@ -70,7 +70,7 @@ pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
             name: shell.name.value.clone(),
             nodes: nodes.clone(),
             positions: shell.mesh.positions.iter().map(|position| (*position).into()).collect(),
-            elements: shell.mesh.elements.clone(),
+            elements: shell.mesh.quadrilaterals().collect(),
             thickness: once((0..count).map(|element| shell.thickness(element)).collect()),
             offset: shell.offset,
             axes: nodes.iter().map(|&node| places.frame(node).rotation.quaternion()).collect(),

@@ -102,8 +102,7 @@ pub fn of_model(model: &Model, document: &Document, lowered: &Lowered) -> Summar
         "elements",
         json!(
             document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()
-                + document.shells.iter().map(|shell| shell.mesh.elements.len()).sum::<usize>()
-                + document.elastic_solids.iter().map(|solid| solid.mesh.element_count()).sum::<usize>()
+                + document.meshes().map(|(_, mesh)| mesh.elements.len()).sum::<usize>()
         ),
     );
     insert("nodes", json!(layout.node_count() - 1));

@@ -94,7 +94,7 @@ fn nodes_of<'a>(names: &'a Names, part: &str) -> &'a [NodeId] {
     let node = names.nodes.get(part).map(std::slice::from_ref);
     let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
     let nodes = nodes.or(names.superelements.get(part).map(Vec::as_slice));
-    nodes.or(names.meshes.nodes_of(part).map(|own| own.nodes)).unwrap_or_default()
+    nodes.or(names.meshes.nodes_of(part).map(|own| own.nodes.as_slice())).unwrap_or_default()
 }
 
 /// Nodes that are to stay where they are.
@@ -112,7 +112,7 @@ pub(super) fn request<'a>(
     Request {
         rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
             .chain(names.superelements.values().map(Vec::as_slice))
-            .chain(names.meshes.all().map(|(_, own)| own.nodes))
+            .chain(names.meshes.all().map(|(_, own)| own.nodes.as_slice()))
             .collect(),
         fixed: fixed.to_vec(),
         values: values.to_vec(),
@@ -135,8 +135,7 @@ pub(super) fn assembled(
     let parts = (document.bodies.iter().map(|body| &body.name.value))
         .chain(document.point_masses.iter().map(|mass| &mass.name.value))
         .chain(document.beams.iter().map(|beam| &beam.name.value))
-        .chain(document.shells.iter().map(|shell| &shell.name.value))
-        .chain(document.elastic_solids.iter().map(|solid| &solid.name.value))
+        .chain(document.meshes().map(|(name, _)| &name.value))
         .chain(document.superelements.iter().map(|element| &element.name.value));
     let size = before.nodes.iter().map(|node| node.frame.position.norm()).fold(0.0, f64::max);
     let moved = parts.filter_map(|part| {

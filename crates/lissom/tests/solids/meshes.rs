@@ -12,7 +12,9 @@ fn distorted_meshes_pass_the_patch_test() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../verification/solid-patch/model.toml");
     let model = Model::read(&path).expect("a model");
     let across = (1.0_f64 - 0.3 * 0.1025).sqrt();
-    for (mesh, scale) in [("hexahedra.inp", 1.0), ("tetrahedra.inp", 1.0), ("hexahedra.inp", 0.5)] {
+    for (mesh, scale) in
+        [("hexahedra.inp", 1.0), ("tetrahedra.inp", 1.0), ("wedges.inp", 1.0), ("hexahedra.inp", 0.5)]
+    {
         let overrides: Vec<Override> = vec![
             set("solids.block.mesh", &format!("\"{mesh}\"")),
             set("solids.block.scale", &scale.to_string()),

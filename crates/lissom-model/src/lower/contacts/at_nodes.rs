@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use lissom_contact::elastic::{Contact, Dissipation};
 use lissom_contact::geometry::pairs::PointOnSurface;
-use lissom_flexible::solid::pressure::area_shares;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::kinematics::{CarriedFrame, NodeId};
+use lissom_mesh::kinds::face::area_shares;
 use lissom_motion::{Motion, Vector3};
 use lissom_system::Builder;
 
@@ -14,8 +14,8 @@ use super::flexible::{OfFlexible, point};
 use super::pairs::solids;
 use crate::document::Shell;
 use crate::outputs::contact_point::ContactPoint;
-use crate::outputs::shell_nodes::BuiltShell;
-use crate::outputs::solid_nodes::BuiltSolid;
+use crate::outputs::meshes::BuiltShell;
+use crate::reading::mesh_nodes::BuiltNodes;
 use crate::text::report::Problem;
 
 /// Largest number of nodes and forms.
@@ -35,42 +35,35 @@ impl TouchingNodes {
     /// All nodes of a shell, with half of its thickness.
     pub(super) fn of_shell(shell: &Shell, built: &BuiltShell) -> Self {
         let thickness = thickness_at_nodes(shell);
-        let each = built.surface.nodes.iter().zip(&built.surface.areas).zip(&thickness);
+        let each = built.nodes.nodes.iter().zip(&built.surface.areas).zip(&thickness);
         Self {
             nodes: each.map(|((node, area), thickness)| (*node, *area, 0.5 * thickness)).collect(),
             // In the middle of the thickness; the third axis of a node is the normal.
             middle: Motion::translation(shell.offset * Vector3::z()),
-            apart: longest_side(&shell.mesh.positions, &shell.mesh.elements),
+            apart: shell.mesh.longest_side(shell.mesh.elements.iter().map(|own| own.nodes.as_slice())),
         }
     }
 
     /// The nodes of outer faces of a solid. Those of triangles have the integrals of their functions, and corners nothing. Such integrals
     /// are negative at corners of quadrilaterals: there faces are divided at the middles of their sides instead.
-    pub(super) fn of_solid(
-        built: &BuiltSolid,
-        (triangles, quadrilaterals): &(Vec<[usize; 6]>, Vec<[usize; 8]>),
-    ) -> Self {
+    pub(super) fn of_solid(built: &BuiltNodes, faces: &[Vec<usize>]) -> Self {
         let mesh = &built.mesh;
         let mut areas = vec![0.0; mesh.positions.len()];
-        let place = |nodes: &[usize]| nodes.iter().map(|node| mesh.positions[*node]).collect::<Vec<_>>();
-        for face in triangles {
-            face.iter().zip(area_shares(&place(face))).for_each(|(node, share)| areas[*node] += share);
+        for face in faces {
+            let mut shares = area_shares(&mesh.positions_of(face));
+            if face.len() == 8 {
+                let area: f64 = shares.iter().sum();
+                // Four triangles at the corners, and a square between the middles.
+                shares.fill(area / 4.8);
+                shares[..4].fill(area / 24.0);
+            }
+            face.iter().zip(shares).for_each(|(node, share)| areas[*node] += share);
         }
-        for face in quadrilaterals {
-            let area: f64 = area_shares(&place(face)).iter().sum();
-            // Four triangles at the corners, and a square between the middles.
-            face.iter()
-                .enumerate()
-                .for_each(|(k, node)| areas[*node] += area / if k < 4 { 24.0 } else { 4.8 });
-        }
-        let corners = |face: &[usize]| [0, 1, 2, 3].map(|k| face[k % (face.len() / 2)]);
-        let faces = triangles.iter().map(|face| corners(face));
-        let faces: Vec<_> = faces.chain(quadrilaterals.iter().map(|face| corners(face))).collect();
-        let each = built.volume.nodes.iter().zip(&areas).filter(|(_, area)| **area > 0.0);
+        let each = built.nodes.iter().zip(&areas).filter(|(_, area)| **area > 0.0);
         Self {
             nodes: each.map(|(node, area)| (*node, *area, 0.0)).collect(),
             middle: Motion::IDENTITY,
-            apart: longest_side(&mesh.positions, &faces),
+            apart: mesh.longest_side(faces.iter().map(|face| &face[..face.len() / 2])),
         }
     }
 }
@@ -113,21 +106,13 @@ impl OfFlexible<'_> {
     }
 }
 
-/// Largest distance between the corners of an element [m].
-fn longest_side(positions: &[Vector3], elements: &[[usize; 4]]) -> f64 {
-    let sides = elements
-        .iter()
-        .flat_map(|own| (0..4).map(|i| (positions[own[i]] - positions[own[(i + 1) % 4]]).norm()));
-    sides.fold(0.0, f64::max)
-}
-
 /// Mean thickness of the elements at each node [m].
 fn thickness_at_nodes(shell: &Shell) -> Vec<f64> {
     let mesh = &shell.mesh;
     let mut sums = vec![[0.0; 2]; mesh.positions.len()];
     for (index, element) in mesh.elements.iter().enumerate() {
         let thickness = shell.thickness(index);
-        for &node in element {
+        for &node in &element.nodes {
             sums[node][0] += thickness;
             sums[node][1] += 1.0;
         }

@@ -12,8 +12,8 @@ use super::super::names::Names;
 use super::at_nodes::TouchingNodes;
 use crate::document::{ContactEntry, Document, FlexibleLaw, FlexiblePart, Shell, Way};
 use crate::outputs::contact_point::ContactPoint;
-use crate::outputs::shell_nodes::BuiltShell;
-use crate::reading::mesh_nodes::NodeSets;
+use crate::outputs::meshes::BuiltShell;
+use crate::reading::mesh_nodes::nodes_at;
 use crate::reading::node_reference::MeshPlace;
 use crate::text::report::Problem;
 
@@ -46,17 +46,17 @@ impl OfFlexible<'_> {
                 let found = names.meshes.solids.get(&name.value);
                 let found =
                     found.ok_or_else(|| self.fault(&format!("there is no solid `{}`", name.value), ""))?;
-                let mesh = &found.mesh;
+                let mesh = &found.nodes.mesh;
                 let faces = match &self.law.faces {
-                    None => (mesh.triangles.clone(), mesh.quadrilaterals.clone()),
+                    None => mesh.faces.clone(),
                     Some(set) => {
-                        let nodes = mesh.nodes_at(&name.value, &MeshPlace::Set(set.value.clone()));
+                        let nodes = nodes_at(mesh, &name.value, &MeshPlace::Set(set.value.clone()));
                         let nodes =
                             nodes.map_err(|(message, help)| Problem::error(set.span, message).help(help))?;
                         mesh.faces_in(&nodes)
                     }
                 };
-                self.add_touching(&TouchingNodes::of_solid(found, &faces), names, builder)
+                self.add_touching(&TouchingNodes::of_solid(&found.nodes, &faces), names, builder)
             }
         }
     }

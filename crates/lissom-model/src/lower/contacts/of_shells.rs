@@ -16,7 +16,7 @@ use super::flexible::{OfFlexible, point};
 use super::pairs::solids;
 use crate::document::Shell;
 use crate::outputs::contact_point::ContactPoint;
-use crate::outputs::shell_nodes::BuiltShell;
+use crate::outputs::meshes::BuiltShell;
 use crate::text::report::Problem;
 
 /// Pairs of balls and elements that may touch.

@@ -353,8 +353,7 @@ enum Touches {
 impl Chosen {
     fn of(document: &Document, request: &ReduceRequest, names: &Names) -> Result<Self, ReduceError> {
         let all: Vec<&String> = (document.beams.iter().map(|beam| &beam.name.value))
-            .chain(document.shells.iter().map(|shell| &shell.name.value))
-            .chain(document.elastic_solids.iter().map(|solid| &solid.name.value))
+            .chain(document.meshes().map(|(name, _)| &name.value))
             .chain(document.bodies.iter().map(|body| &body.name.value))
             .chain(document.point_masses.iter().map(|mass| &mass.name.value))
             .chain(document.superelements.iter().map(|element| &element.name.value))

@@ -274,7 +274,7 @@ fn agree(scene: &str, plain: &End, placed: &End) {
     let names = &plain.lowered.names;
     let point_masses = plain.point_masses.iter().map(|name| names.nodes[name].index());
     let of_solids =
-        names.meshes.solids.values().flat_map(|solid| solid.volume.nodes.iter().map(|node| node.index()));
+        names.meshes.solids.values().flat_map(|solid| solid.nodes.nodes.iter().map(|node| node.index()));
     let without_axes: BTreeSet<usize> = point_masses.chain(of_solids).collect();
     let size = 10.0;
     for node in 1..plain.frames.len() {
