@@ -170,7 +170,7 @@ impl<const NODES: usize, const POINTS: usize> Deformable for Solid<NODES, POINTS
     }
 
     fn predicts_stresses(&self) -> bool {
-        self.law.model == SolidModel::StVenantKirchhoff
+        true
     }
 
     /// The largest strain rate at a point.

@@ -5,9 +5,10 @@
 //! ```
 //!
 //! The geometric part of St. Venant-Kirchhoff has stresses that are predicted linearly from the iterate before,
-//! S* = S(E + sym Fᵀ ΔF), as in shells [Magisano, Leonetti and Garcea 2017].
+//! S* = S(E + sym Fᵀ ΔF), as in shells [Magisano, Leonetti and Garcea 2017]. That of rubber has such a pressure of the mean dilatation,
+//! m* = m + (K - K₀)/V₀ Σ v_I·Δx_I: as if the pressure were an unknown of the element, whose equation is solved in every iteration.
 
-use lissom_motion::{Matrix3, Vector3};
+use lissom_motion::Matrix3;
 
 use super::deformation::Deformation;
 use super::law::SolidModel;
@@ -18,15 +19,13 @@ use lissom_mechanics::kinematics::{Kinematics, Stressed};
 
 impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
     pub(super) fn add_tangent(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
-        let Deformed { points, mean } = self.deformed(at);
+        let points = self.deformed(at).points;
+        let mean = self.predicted_mean(at, stressed);
         let geometric = self.geometric_stresses(&points, stressed);
         let size = 6 * NODES;
-        let mut volume_slopes = [Vector3::zeros(); NODES];
+        let volume_slopes = self.volume_slopes(&points);
         for (p, point) in points.iter().enumerate() {
             let (slopes, volume) = (&self.reference.gradients[p], self.reference.volumes[p]);
-            for (sum, slope) in volume_slopes.iter_mut().zip(slopes) {
-                *sum += volume * point.determinant * (point.inverse_transpose * slope);
-            }
             for (j, slope) in slopes.iter().enumerate() {
                 for k in 0..3 {
                     let change = volume * self.law.stress_change(point, (&geometric[p], mean), (k, slope));
@@ -57,6 +56,15 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
                 }
             }
         }
+    }
+
+    /// Pressure of the mean dilatation in the geometric part [Pa].
+    fn predicted_mean(&self, at: &Kinematics, stressed: Stressed<'_>) -> f64 {
+        let Some(previous) = stressed.previous else { return self.deformed(stressed.at).mean };
+        let Deformed { points, mean } = self.deformed(previous);
+        let shifts = self.positions(at).into_iter().zip(self.positions(previous));
+        let change: f64 = shifts.zip(self.volume_slopes(&points)).map(|((x, y), v)| v.dot(&(x - y))).sum();
+        mean + self.law.bulk_of_mean() / self.reference.volume * change
     }
 
     /// Second stresses of the geometric part at all points; zero where the law does not use them.
