@@ -94,45 +94,46 @@ class Cursor {
   }
 }
 
-/** Distance of two numbers of single precision that are about one. */
-const SINGLE = 2 ** -24;
-
-/** Frames of a channel are whole multiples of its quantum, kept as second differences. Returns the distance of its numbers. */
+/** Frames of a channel are whole multiples of its quantum, kept as second differences. */
 const channel = (cursor, frames, out, offset, stride) => {
   const start = cursor.double();
   const quantum = cursor.double();
   let value = 0;
   let slope = 0;
-  let largest = 0;
   for (let frame = 0; frame < frames; frame++) {
     if (quantum !== 0) {
       slope += cursor.integer();
       value += slope;
     }
     out[frame * stride + offset] = start + quantum * value;
-    largest = Math.max(largest, Math.abs(start + quantum * value));
   }
-  return Math.max(quantum, SINGLE * largest);
 };
 
-/** Poses and section forces of all frames. */
-export const decodeMotion = async (motion) => {
+/** Numbers of shells and solids in a motion: how many have them, how many each has, and how many constants. Pages of earlier versions have none. */
+const fieldsOf = ({ shells = [], elastic_solids: solids = [] }, { field_stride: stride }) => {
+  if (!stride) return [];
+  const ofShells = shells.map(({ elements }) => ({ count: elements.length, numbers: 9, constants: 4 }));
+  return [...ofShells, ...solids.map(({ elements }) => ({ count: new Set(elements.flat()).size, numbers: 2, constants: 0 }))];
+};
+
+/** Poses and section forces of all frames, and numbers of shells and solids in some. */
+export const decodeMotion = async (motion, scene) => {
   if (!motion) return null;
   const cursor = new Cursor(await inflate(motion.packed));
-  const { nodes, force_points: forcePoints, frames } = motion;
+  const { nodes, force_points: forcePoints, frames, field_stride: stride } = motion;
   const doubles = (count) => Float64Array.from({ length: count }, () => cursor.double());
   const times = doubles(frames);
   const reference = doubles(7 * nodes.length);
-  const read = (count, quanta = []) => {
+  const read = (count, frames) => {
     const out = new Float32Array(frames * count);
-    for (let k = 0; k < count; k++) quanta[k] = channel(cursor, frames, out, k, count);
+    for (let k = 0; k < count; k++) channel(cursor, frames, out, k, count);
     return out;
   };
-  /** Distances of the numbers that stand for displacements and rotations, one of each component. */
-  const quanta = { displacements: new Float64Array(3 * nodes.length), rotations: new Float64Array(3 * nodes.length) };
-  const displacements = read(3 * nodes.length, quanta.displacements);
-  const rotations = read(3 * nodes.length, quanta.rotations);
+  const displacements = read(3 * nodes.length, frames);
+  const rotations = read(3 * nodes.length, frames);
   const points = forcePoints.reduce((sum, beam) => sum + beam.at.length, 0);
-  const forces = read(6 * points);
-  return { nodes, forcePoints, points, frames, times, reference, displacements, rotations, forces, quanta };
+  const forces = read(6 * points, frames);
+  const withFields = Math.min(Math.ceil((frames - 1) / stride) + 1, frames);
+  const recorded = fieldsOf(scene, motion).map(({ count, constants, numbers }) => ({ count, numbers, constants: doubles(constants * count), values: read(numbers * count, withFields) }));
+  return { nodes, forcePoints, points, frames, times, reference, displacements, rotations, forces, fields: { stride, parts: recorded } };
 };

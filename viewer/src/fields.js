@@ -100,21 +100,24 @@ const beamFields = (scene, kinematics) => {
   return found;
 };
 
-/** All fields by name. */
-export const fields = (scene, kinematics) => ({
-  speed: ofNodes("speed", "m/s", () => kinematics.speeds),
-  displacement: ofNodes("displacement", "m", () => kinematics.distances),
-  ...beamFields(scene, kinematics),
-  ...shellFields(scene.shells ?? [], kinematics),
-  ...solidFields(scene.elastic_solids ?? [], kinematics),
-});
+/** All fields by name. Pages of earlier versions have none of shells and solids. */
+export const fields = (scene, kinematics) => {
+  const { parts } = kinematics.motion.fields;
+  const [shells, solids] = parts.length ? [scene.shells ?? [], scene.elastic_solids ?? []] : [[], []];
+  return {
+    speed: ofNodes("speed", "m/s", () => kinematics.speeds),
+    displacement: ofNodes("displacement", "m", () => kinematics.distances),
+    ...beamFields(scene, kinematics),
+    ...shellFields(shells, kinematics, parts),
+    ...solidFields(solids, kinematics, parts.slice(shells.length)),
+  };
+};
 
 /** Values below this are round-off: section forces beside the largest of the run, motions beside the size of the model. */
 const ROUND_OFF = 1e-9;
 
 /** The largest value that is round-off in a field. */
 export const roundOff = (field, { motion }, size) => {
-  if (field.roundOff) return field.roundOff();
   const { unit } = field;
   if (unit === "m") return ROUND_OFF * size;
   if (unit === "m/s") return (ROUND_OFF * size) / Math.max(motion.times[motion.frames - 1] - motion.times[0], 1e-300);

@@ -50,8 +50,8 @@ export class Kinematics {
     this.magnification = 1;
     /** Against the rigid motion of which node each node's are enlarged: 0 is the ground, -1 leaves the node where it is. */
     this.frames = new Int32Array(count);
-    /** The recorded frames around the time, and how far it is from the first to the second. */
-    [this.before, this.after, this.share] = [0, 0, 0];
+    /** The recorded frame before the time. */
+    this.before = 0;
     this.a = [0, 0, 0, 1];
     this.b = [0, 0, 0, 1];
     this.set(motion.times[0]);
@@ -137,8 +137,6 @@ export class Kinematics {
     this.time = time;
     if (this.mode) return this.oscillate(time);
     this.before = frame;
-    this.after = next;
-    this.share = x;
     const m = this.magnification;
     const before = 3 * count * frame;
     const after = 3 * count * next;
@@ -189,19 +187,6 @@ export class Kinematics {
     for (let k = 0; k < width; k++) {
       const first = forces[frame * width + k];
       this.forces[k] = first + x * (forces[next * width + k] - first);
-    }
-  }
-
-  /** Places and quaternions of some nodes in a recorded frame, as they are: not enlarged. */
-  recorded(frame, nodes, positions, quaternions) {
-    const { count, a } = this;
-    const { reference, displacements, rotations } = this.motion;
-    for (let k = 0; k < nodes.length; k++) {
-      const from = 3 * (count * frame + nodes[k]);
-      const r = 7 * nodes[k];
-      for (let i = 0; i < 3; i++) positions[3 * k + i] = reference[r + i] + displacements[from + i];
-      exponential(rotations, from, a);
-      multiply(a[0], a[1], a[2], a[3], reference[r + 4], reference[r + 5], reference[r + 6], reference[r + 3], quaternions, 4 * k);
     }
   }
 

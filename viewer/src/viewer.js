@@ -106,7 +106,7 @@ export class Viewer {
   async load(result, keeps = false) {
     const [history, motion] = await Promise.all([
       decodeHistory(result.history, result.columns ?? []),
-      decodeMotion(result.motion),
+      decodeMotion(result.motion, result.scene),
     ]);
     const { scene } = result;
     this.result = result;
@@ -165,7 +165,7 @@ export class Viewer {
         const result = JSON.parse(held.textContent);
         history = await decodeHistory(result.history, result.columns ?? []);
         name = result.name || name;
-        other = { scene: result.scene, motion: await decodeMotion(result.motion) };
+        other = { scene: result.scene, motion: await decodeMotion(result.motion, result.scene) };
       } else {
         history = readTable(text);
       }

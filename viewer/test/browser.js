@@ -209,7 +209,7 @@ const tests = {
   ...plots({ program, root, folder, view, open }),
   ...parts({ root, folder, view, open }),
   ...shapes({ folder, view, open }),
-  ...shells({ folder, view, open, comparePlaces, plays, draws, selects }),
+  ...shells({ folder, program, view, open, comparePlaces, plays, draws, selects }),
   ...live({ program, folder }),
   ...examples({ root, folder, view, open }),
   "a mechanism of beams": async (browser) => {

@@ -18,6 +18,7 @@ mod modes;
 mod motion;
 mod new;
 mod outputs;
+mod page_fields;
 mod parts;
 mod path;
 mod plot;

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::support::{CANTILEVER, Folder, SPARE_SECTION, example, lissom};
 
 /// The results in a page.
-fn results(page: &str) -> Value {
+pub(crate) fn results(page: &str) -> Value {
     let (_, rest) = page.split_once("<script type=\"application/json\" id=\"result\">").unwrap();
     let (text, _) = rest.split_once("</script>").unwrap();
     serde_json::from_str(text).unwrap()
@@ -42,10 +42,18 @@ pub(crate) fn decoded(text: &str) -> Vec<u8> {
 }
 
 /// Reads a packed motion as the page does.
-struct Packed(Vec<u8>, usize);
+pub(crate) struct Packed(Vec<u8>, usize);
 
 impl Packed {
-    fn double(&mut self) -> f64 {
+    pub(crate) fn of(results: &Value) -> Self {
+        Self(inflated(results["motion"]["packed"].as_str().unwrap()), 0)
+    }
+
+    pub(crate) fn is_read(&self) -> bool {
+        self.1 == self.0.len()
+    }
+
+    pub(crate) fn double(&mut self) -> f64 {
         self.1 += 8;
         f64::from_le_bytes(self.0[self.1 - 8..self.1].try_into().unwrap())
     }
@@ -64,7 +72,7 @@ impl Packed {
     }
 
     /// A number over all frames.
-    fn channel(&mut self, frames: usize) -> (Vec<f64>, f64) {
+    pub(crate) fn channel(&mut self, frames: usize) -> (Vec<f64>, f64) {
         let (start, quantum) = (self.double(), self.double());
         let (mut value, mut slope) = (0, 0);
         let mut next = || {
@@ -84,7 +92,7 @@ fn compare(results: &Value, file: &Path) {
     let frames = motion.times().len();
     assert_eq!(results["motion"]["frames"], frames);
     assert_eq!(results["motion"]["nodes"].as_array().unwrap().len(), motion.reference().len());
-    let mut packed = Packed(inflated(results["motion"]["packed"].as_str().unwrap()), 0);
+    let mut packed = Packed::of(results);
     let times: Vec<f64> = (0..frames).map(|_| packed.double()).collect();
     assert_eq!(times, motion.times());
     for pose in motion.reference() {
@@ -102,7 +110,7 @@ fn compare(results: &Value, file: &Path) {
             assert!((found - wanted).abs() <= 0.51 * quantum + 1e-300, "{number}: {found} for {wanted}");
         }
     }
-    assert_eq!(packed.1, packed.0.len(), "all is read");
+    assert!(packed.is_read());
 }
 
 /// What would fetch something or send it somewhere, and the rule that forbids what is overlooked here.
@@ -275,9 +283,20 @@ fn modes_are_shown_about_their_state() {
     let motion = Motion::from_bytes(&fs::read(folder.path().join("out/motion.bin")).unwrap()).unwrap();
     let tip = motion.node("bar.end").unwrap();
     assert!((motion.pose(0, tip).position.z - 5e-3).abs() < 5e-5, "{}", motion.pose(0, tip).position);
-    // Shapes of another model, and a run in the same folder: nothing is mixed up.
+    // Complex shapes of nodes whose names have commas.
     let shapes = folder.path().join("out/shapes.csv");
     let text = fs::read_to_string(&shapes).unwrap();
+    let complex = |(line, row): (usize, &str)| match line {
+        0 => format!("{row},u1_im,u2_im,u3_im,r1_im,r2_im,r3_im\n"),
+        _ => format!("{},1,2,3,4,5,5e-1\n", row.replace("bar.end", "\"bar, end\"")),
+    };
+    fs::write(&shapes, text.lines().enumerate().map(complex).collect::<String>()).unwrap();
+    assert_eq!(lissom(&["view", "out", "-q"], folder.path()).code, 0);
+    let page = fs::read_to_string(folder.path().join("out/view.html")).unwrap();
+    let second = &self::results(&page)["modes"][1];
+    assert_eq!(second["real"], shown[1]["real"]);
+    assert_eq!(second["imaginary"].as_array().unwrap()[6..12], [1.0, 2.0, 3.0, 4.0, 5.0, 0.5]);
+    // Shapes of another model, and a run in the same folder: nothing is mixed up.
     fs::write(&shapes, &text[..text.len() / 2]).unwrap();
     let view = lissom(&["view", "out"], folder.path());
     assert!(view.code == 2 && view.errors.contains("shapes.csv"), "{}", view.errors);
@@ -363,6 +382,24 @@ fn a_campbell_diagram_is_a_page_with_its_lines_and_crossings() {
         "{}",
         snapshot.errors
     );
-    fs::write(folder.path().join("rotor/campbell.csv"), "value\n1\n").unwrap();
-    assert_eq!(lissom(&["view", "rotor"], folder.path()).code, 2);
+    // The page has what is in the table, and none of a damaged one.
+    let shown = |table: &str| {
+        fs::write(folder.path().join("rotor/campbell.csv"), table).unwrap();
+        let view = lissom(&["view", "rotor", "-q"], folder.path());
+        (view.code == 0).then(|| results(&fs::read_to_string(folder.path().join("rotor/view.html")).unwrap()))
+    };
+    let table = "value,rotation,line,frequency,damping,kind,whirl,frequency_at_rest,likeness\n\
+                 0.0,0.0,1,5.0,0.0,oscillation,none,5.0,\n\
+                 0.0,0.0,2,5.0,0.0,oscillation,none,5.0,\n\
+                 10.0,1.5,2,3.0,0.02,oscillation,forward,4.5,0.5\n\
+                 10.0,1.5,1,7.0,0.01,oscillation,mixed,,0.5\n";
+    let found = shown(table).unwrap();
+    assert_eq!(found["facts"], "2 lines over 2 values of parameters.Omega");
+    let [first, second] = [0, 1].map(|line| &found["campbell"]["lines"][line]);
+    assert_eq!((&first["whirl"], &second["whirl"]), (&json!("mixed"), &json!("forward")));
+    assert_eq!((&first["frequencies"], &second["frequencies"]), (&json!([5.0, 7.0]), &json!([5.0, 4.5])));
+    assert_eq!((&second["damping"], &second["rotations"]), (&json!([0.0, 0.02]), &json!([0.0, 1.5])));
+    for damaged in ["value\n1\n", "", &table.replace("3.0", "x"), &table.replace(",2,5.0", ",0,5.0")] {
+        assert!(shown(damaged).is_none(), "{damaged}");
+    }
 }

@@ -91,12 +91,12 @@ impl ResultFolder {
             let text = format!("The motion ends at t = {frame} s, the table at t = {row} s.");
             results = results.with_notice(Notice::warning(text));
         }
-        results.with_motion(scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))
+        results.with_scene(&scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))
     }
 }
 
 /// Scene and motion, if they exist.
-fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
+fn drawn(path: &Path) -> Result<Option<(Scene, Vec<u8>)>, FolderError> {
     let motion = path.join(MOTION);
     let bytes = match lissom_model::files::read(&motion) {
         Ok(bytes) => bytes,
@@ -105,10 +105,7 @@ fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
     };
     // An invalid motion file is reported before a missing scene.
     Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
-    let scene = read_scene(&path.join(SCENE))?;
-    let described =
-        serde_json::to_value(&scene).map_err(|_| foreign(&path.join(SCENE), MotionError::Damaged));
-    Ok(Some((described?, bytes)))
+    Ok(Some((read_scene(&path.join(SCENE))?, bytes)))
 }
 
 pub(crate) fn read_scene(path: &Path) -> Result<Scene, FolderError> {
@@ -120,7 +117,7 @@ fn with_modes(path: &Path, results: Results) -> Result<Results, FolderError> {
     let (modes, shapes) = (files::read_text(&path.join(MODES))?, files::read_text(&path.join(SHAPES))?);
     let damaged = || foreign(&path.join(SHAPES), MotionError::Damaged);
     let (scene, motion) = drawn(path)?.ok_or_else(|| foreign(&path.join(MOTION), MotionError::Damaged))?;
-    let results = results.with_motion(scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))?;
+    let results = results.with_scene(&scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))?;
     results.with_modes(&modes, &shapes).ok_or_else(damaged)
 }
 

@@ -79,9 +79,17 @@ impl ShellElements {
 
     /// Strain energy per area of an element at r, s ∈ [-1, 1] [J/m²].
     pub fn energy(&self, element: usize, at: &Kinematics, place: (f64, f64)) -> f64 {
+        self.state(element, at, place).1
+    }
+
+    /// The resultants with the strain energy per area.
+    pub(crate) fn state(&self, element: usize, at: &Kinematics, place: (f64, f64)) -> ([f64; 8], f64) {
         let own = &self.elements[element];
-        let pairs = own.strains_at(at, place).into_iter().zip(own.resultants_at(at, place));
-        0.5 * pairs.map(|(strain, resultant)| strain * resultant).sum::<f64>()
+        let (strains, stiffness) = (own.strains_at(at, place), own.law().stiffness);
+        let resultants: [f64; 8] =
+            std::array::from_fn(|i| (0..8).map(|j| stiffness[(i, j)] * strains[j]).sum());
+        let pairs = strains.iter().zip(&resultants);
+        (resultants, 0.5 * pairs.map(|(strain, resultant)| strain * resultant).sum::<f64>())
     }
 
     /// Von Mises stress [Pa] of the stresses in the plane, which are linear over the thickness; none for several layers.
@@ -105,6 +113,11 @@ impl ShellElements {
         let rotated = |(frame, first): (&Pose, &Vector3)| frame.rotation.apply(first);
         let sum: Vector3 = nodes.iter().zip(&self.firsts[element]).map(rotated).sum();
         (sum - normal * normal.dot(&sum)).try_normalize(0.0).unwrap_or(sum)
+    }
+
+    /// Area of an element in the stress-free state [m²].
+    pub(crate) fn area(&self, element: usize) -> f64 {
+        self.elements[element].area()
     }
 
     /// Thickness of an element [m].

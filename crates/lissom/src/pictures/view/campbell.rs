@@ -82,28 +82,3 @@ pub(crate) fn common_whirl<'w>(mut words: impl Iterator<Item = &'w str>) -> &'w 
     let first = words.next().unwrap_or("none");
     if words.all(|word| word == first) { first } else { "changes" }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_diagram_comes_back_from_its_table() {
-        let table = "value,rotation,line,frequency,damping,kind,whirl,frequency_at_rest,likeness\n\
-                     0.0,0.0,1,5.0,0.0,oscillation,none,5.0,\n\
-                     0.0,0.0,2,5.0,0.0,oscillation,none,5.0,\n\
-                     10.0,1.5,2,3.0,0.02,oscillation,forward,4.5,0.5\n\
-                     10.0,1.5,1,7.0,0.01,oscillation,mixed,,0.5\n";
-        let found = read(table, &serde_json::json!({ "vary": "parameters.speed" })).unwrap();
-        assert_eq!(found.facts(), "2 lines over 2 values of parameters.speed");
-        let [first, second] = &found.lines[..] else { panic!("{found:?}") };
-        assert_eq!((first.whirl.as_str(), second.whirl.as_str()), ("mixed", "forward"));
-        assert_eq!((&first.frequencies[..], &second.frequencies[..]), (&[5.0, 7.0][..], &[5.0, 4.5][..]));
-        assert_eq!((&second.damping[..], &second.rotations[..]), (&[0.0, 0.02][..], &[0.0, 1.5][..]));
-        for damaged in
-            ["", "value,rotation\n1,2\n", &table.replace("3.0", "x"), &table.replace(",2,5.0", ",0,5.0")]
-        {
-            assert_eq!(read(damaged, &Value::Null), None, "{damaged}");
-        }
-    }
-}

@@ -3,6 +3,7 @@
 //! The page itself is bundled from `viewer/`; here the results are inserted.
 
 pub(crate) mod campbell;
+mod fields;
 pub(crate) mod modes;
 mod packed;
 
@@ -21,6 +22,10 @@ pub(crate) use packed::base64;
 const PAGE: &str = include_str!("viewer.html");
 /// Maximum number of values of the table in a page; rows of longer ones are omitted.
 const MAX_NUMBERS: usize = 1_500_000;
+/// Maximum number of values of the fields in a page; longer motions have them in fewer frames.
+const MAX_FIELDS: usize = 8_000_000;
+/// What shells and solids have in a scene for their fields alone, which a page has from here.
+const ONLY_FOR_FIELDS: [&str; 5] = ["axes", "directions", "stiffness", "tetrahedra", "hexahedra"];
 
 /// A note for the reader of a page about the results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -154,29 +159,28 @@ impl Results {
         self
     }
 
-    /// With a scene and its motion, as in the files of a run.
+    /// With a scene and its motion.
     ///
     /// # Errors
-    /// If the bytes are not a motion file.
-    pub fn with_motion(mut self, scene: Value, motion: &[u8]) -> Result<Self, MotionError> {
-        let motion = Motion::from_bytes(motion)?;
-        let is_given = |part: &str| scene[part].as_array().is_some_and(|parts| !parts.is_empty());
-        let has_shells = is_given("shells") || is_given("elastic_solids");
-        self.scene = scene;
-        self.motion = Some(packed::Motion::of(&motion, has_shells, self.effort));
-        Ok(self)
-    }
-
-    /// With a model at its start.
-    ///
-    /// # Errors
-    /// If the bytes are not a motion file.
+    /// If the bytes are not a motion file, or that of another scene.
     ///
     /// # Panics
     /// Never: plain numbers and texts are valid JSON.
-    pub fn with_scene(self, scene: &Scene, motion: &[u8]) -> Result<Self, MotionError> {
-        let scene = serde_json::to_value(scene).expect("plain numbers and texts can always be said in JSON");
-        self.with_motion(scene, motion)
+    pub fn with_scene(mut self, scene: &Scene, motion: &[u8]) -> Result<Self, MotionError> {
+        let motion = Motion::from_bytes(motion)?;
+        if scene.most_node().index() >= motion.reference().len() {
+            return Err(MotionError::Damaged);
+        }
+        let work = if self.effort == packed::Effort::Soon { MAX_FIELDS / 4 } else { MAX_FIELDS };
+        self.motion = Some(packed::Motion::of(&motion, &fields::of(scene, &motion, work), self.effort));
+        self.scene = serde_json::to_value(scene).expect("plain numbers and texts can always be said in JSON");
+        for list in ["shells", "elastic_solids"] {
+            let parts = self.scene.get_mut(list).and_then(Value::as_array_mut);
+            for part in parts.into_iter().flatten().filter_map(Value::as_object_mut) {
+                part.retain(|key, _| !ONLY_FOR_FIELDS.contains(&key.as_str()));
+            }
+        }
+        Ok(self)
     }
 
     /// With natural modes, from the tables `modes.csv` and `shapes.csv`; none if they do not belong to the motion given

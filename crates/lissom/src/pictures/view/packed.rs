@@ -2,8 +2,8 @@
 //!
 //! A number of a motion is a multiple of its own quantum, stored as a second difference in as few bytes as necessary.
 //! Quanta are a fraction of the number's range during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations, 2⁻¹² for
-//! section forces; and never less than a fraction of the largest range of their kind. Motions of more than ten million
-//! numbers have quanta eight times as large, those of shells and solids a 32nd.
+//! section forces and fields; and never less than a fraction of the largest range of their kind. Motions of more than ten
+//! million numbers have quanta eight times as large. Fields have at most eight million numbers, from fewer frames if necessary.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -13,17 +13,19 @@ use flate2::write::ZlibEncoder;
 use lissom_model::output::{CsvWriter, Record, Writer};
 use serde::Serialize;
 
+use super::fields::{PartField, recorded};
 use crate::motion::{ForcePoints, Motion as Recorded};
 
 /// Quantum over the range of a number, and over the largest range of its kind.
 const DISPLACEMENT: [f64; 2] = [1.0 / 131_072.0, 1.5e-8];
 const ROTATION: [f64; 2] = [1.0 / 32_768.0, 1.5e-8];
 const FORCE: [f64; 2] = [1.0 / 4096.0, 1e-6];
+const FIELD: [f64; 2] = [1.0 / 4096.0, 1.0 / 32_768.0];
 /// A motion with more numbers is a large one, and this is the factor of its quanta.
 const LARGE: usize = 10_000_000;
 const COARSER: f64 = 8.0;
-/// Factor of the quanta of positions and rotations where strains of shells and solids are seen: they are differences of neighbouring nodes.
-const FINER: f64 = 1.0 / 32.0;
+/// Quantum of a field over what is round-off in it, which then vanishes.
+const OVER_NOISE: f64 = 3.0;
 
 /// A motion in the page's format.
 #[derive(Clone, Debug, Serialize)]
@@ -31,6 +33,8 @@ pub(super) struct Motion {
     nodes: Vec<String>,
     force_points: Vec<ForcePoints>,
     frames: usize,
+    /// Every so manieth frame has fields, and the last one.
+    field_stride: usize,
     packed: String,
 }
 
@@ -40,7 +44,7 @@ impl Motion {
         self.nodes.len()
     }
 
-    pub(super) fn of(motion: &Recorded, has_shells: bool, effort: Effort) -> Self {
+    pub(super) fn of(motion: &Recorded, fields: &(usize, Vec<PartField>), effort: Effort) -> Self {
         let (header, times) = (motion.header(), motion.times());
         let mut bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();
         for pose in motion.reference() {
@@ -52,34 +56,41 @@ impl Motion {
         let is_large = times.len() * (2 * nodes + points) > LARGE;
         let factor = if is_large { COARSER } else { 1.0 };
         let of = |quanta: [f64; 2]| quanta.map(|quantum| factor * quantum);
-        let finer =
-            |quanta: [f64; 2]| if has_shells { quanta.map(|quantum| FINER * quantum) } else { of(quanta) };
         let mut first = 0;
-        for (count, quanta) in [(nodes, DISPLACEMENT), (nodes, ROTATION)] {
-            channels(motion, first, count, 1, finer(quanta), &mut bytes);
+        let mut put = |count: usize, kinds: &[usize], quanta: [f64; 2]| {
+            let value = |frame: usize, k: usize| f64::from(motion.frame(frame)[first + k]);
+            channels(times.len(), count, kinds, quanta, &[0.0; 6], value, &mut bytes);
             first += count;
+        };
+        put(nodes, &[0], of(DISPLACEMENT));
+        put(nodes, &[0], of(ROTATION));
+        put(points, &[0, 1, 2, 3, 4, 5], of(FORCE));
+        let with_fields = recorded(times.len(), fields.0).count();
+        for part in &fields.1 {
+            bytes.extend(part.constants.iter().flat_map(|number| number.to_le_bytes()));
+            let value = |frame: usize, k: usize| f64::from(part.values[frame * part.count + k]);
+            channels(with_fields, part.count, part.kinds, FIELD, &part.noise, value, &mut bytes);
         }
-        channels(motion, first, points, 6, of(FORCE), &mut bytes);
         Self {
             nodes: header.nodes.clone(),
             force_points: header.force_points.clone(),
             frames: times.len(),
+            field_stride: fields.0,
             packed: deflated(&bytes, effort),
         }
     }
 }
 
-/// Appends `count` numbers from `first` on, each over all frames; those `kinds` apart are of one kind.
+/// Appends `count` numbers, each over all frames. The kind of each is one of `kinds`, again and again; `noise` is the round-off of each kind.
 fn channels(
-    motion: &Recorded,
-    first: usize,
+    frames: usize,
     count: usize,
-    kinds: usize,
+    kinds: &[usize],
     quanta: [f64; 2],
+    noise: &[f64],
+    value: impl Fn(usize, usize) -> f64,
     out: &mut Vec<u8>,
 ) {
-    let frames = motion.times().len();
-    let value = |frame: usize, k: usize| f64::from(motion.frame(frame)[first + k]);
     let range = |k: usize| {
         let ends = (0..frames).map(|frame| value(frame, k));
         let [low, high] =
@@ -87,12 +98,17 @@ fn channels(
         (high - low).max(0.0)
     };
     let ranges: Vec<f64> = (0..count).map(range).collect();
-    for k in 0..count {
-        let largest =
-            ranges.iter().skip(k % kinds).step_by(kinds).fold(0.0_f64, |most, range| most.max(*range));
-        let quantum = (quanta[0] * ranges[k]).max(quanta[1] * largest);
+    let noise = |k: usize| OVER_NOISE * noise[kinds[k % kinds.len()]];
+    let mut largest = [0.0_f64; 6];
+    for (k, range) in ranges.iter().enumerate() {
+        let largest = &mut largest[kinds[k % kinds.len()]];
+        *largest = largest.max(*range);
+    }
+    for (k, range) in ranges.iter().enumerate() {
+        let quantum = (quanta[0] * range).max(quanta[1] * largest[kinds[k % kinds.len()]]).max(noise(k));
         let start = if frames > 0 { value(0, k) } else { 0.0 };
-        let quantum = if ranges[k] > 0.0 { quantum } else { 0.0 };
+        let start = if start.abs() <= noise(k) { 0.0 } else { start };
+        let quantum = if *range > 0.0 { quantum } else { 0.0 };
         out.extend_from_slice(&start.to_le_bytes());
         out.extend_from_slice(&quantum.to_le_bytes());
         if quantum == 0.0 {
@@ -174,48 +190,4 @@ pub(crate) fn base64(bytes: &[u8]) -> String {
         }
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use std::io::Read;
-
-    use flate2::read::ZlibDecoder;
-
-    use super::*;
-
-    #[test]
-    fn letters_are_those_of_the_standard() {
-        for (bytes, wanted) in
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
-        {
-            assert_eq!(base64(bytes.as_bytes()), wanted);
-        }
-    }
-
-    #[test]
-    fn integers_take_few_bytes() {
-        let of = |value| {
-            let mut out = Vec::new();
-            put_integer(value, &mut out);
-            out
-        };
-        assert_eq!(of(0), [0]);
-        assert_eq!(of(-1), [1]);
-        assert_eq!(of(63), [126]);
-        assert_eq!(of(64), [128, 1]);
-        assert_eq!(of(i64::MIN).len(), 10);
-    }
-
-    #[test]
-    fn what_is_deflated_comes_back() {
-        let mut bytes = Vec::new();
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(6));
-        encoder.write_all(&[7; 1000]).unwrap();
-        ZlibDecoder::new(&*encoder.finish().unwrap()).read_to_end(&mut bytes).unwrap();
-        assert_eq!(bytes, [7; 1000]);
-        for effort in [Effort::Small, Effort::Soon] {
-            assert!(deflated(&[7; 1000], effort).len() < 60);
-        }
-    }
 }
