@@ -4,6 +4,8 @@
 //! strain energy per area [√(J/m²)]. Numbers of a solid are those at the nodes of its surface in ascending order: the von Mises stress [Pa] and
 //! the root of the strain energy per volume [√(J/m³)]. The roots are proportional to small strains, as the others.
 
+use std::collections::BTreeSet;
+
 use lissom_core::kinematics::{Kinematics, NodeId};
 use lissom_model::scene::{ElasticSolid, Scene, Shell};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
@@ -35,7 +37,7 @@ pub(super) struct PartField {
     pub(super) noise: Vec<f64>,
 }
 
-/// Fields of all shells, and after them of all solids of a scene: in every how many frames, and in the last one.
+/// Fields of all shells, and after them of all solids of a scene, in every nth frame and the last one, with n, which `work` determines.
 pub(super) fn of(scene: &Scene, motion: &Motion, work: usize) -> (usize, Vec<PartField>) {
     let rest = at_rest(motion.reference());
     let disturbed = disturbed(motion);
@@ -87,9 +89,7 @@ fn of_shell<'s>(shell: &'s Shell, rest: &Kinematics) -> (PartField, usize, Evalu
 
 fn of_solid(solid: &ElasticSolid) -> (PartField, usize, Evaluate<'_>) {
     let elements = SolidElements::new(solid);
-    let mut surface: Vec<usize> = solid.elements.iter().flatten().copied().collect();
-    surface.sort_unstable();
-    surface.dedup();
+    let surface: BTreeSet<usize> = solid.elements.iter().flatten().copied().collect();
     let field = PartField::new(SOLID_KINDS, surface.len(), Vec::new());
     let evaluate = move |at: &Kinematics| {
         let (stresses, energies) = (elements.von_mises(at), elements.energy(at));
@@ -102,8 +102,7 @@ fn of_solid(solid: &ElasticSolid) -> (PartField, usize, Evaluate<'_>) {
 
 impl PartField {
     fn new(kinds: &'static [usize], count: usize, constants: Vec<f64>) -> Self {
-        let count = count * kinds.len();
-        Self { kinds, constants, count, values: Vec::new(), noise: vec![0.0; kinds.len()] }
+        Self { kinds, constants, count: count * kinds.len(), values: Vec::new(), noise: vec![0.0; 4] }
     }
 }
 

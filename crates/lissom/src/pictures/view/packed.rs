@@ -1,9 +1,8 @@
 //! Compressed results for a page: numbers rounded to the resolution of a screen, differences, deflate, base64.
 //!
 //! A number of a motion is a multiple of its own quantum, stored as a second difference in as few bytes as necessary.
-//! Quanta are a fraction of the number's range during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations, 2⁻¹² for
-//! section forces and fields; and never less than a fraction of the largest range of their kind. Motions of more than ten
-//! million numbers have quanta eight times as large. Fields have at most eight million numbers, from fewer frames if necessary.
+//! Quanta are a fraction of the number's range during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations, 2⁻¹² for section forces and fields;
+//! and never less than a fraction of the largest range of their kind. Motions of more than ten million numbers have quanta eight times as large.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -33,7 +32,7 @@ pub(super) struct Motion {
     nodes: Vec<String>,
     force_points: Vec<ForcePoints>,
     frames: usize,
-    /// Every so manieth frame has fields, and the last one.
+    /// Every `field_stride`th frame has fields, and the last one.
     field_stride: usize,
     packed: String,
 }
@@ -98,16 +97,15 @@ fn channels(
         (high - low).max(0.0)
     };
     let ranges: Vec<f64> = (0..count).map(range).collect();
-    let noise = |k: usize| OVER_NOISE * noise[kinds[k % kinds.len()]];
+    let kind = |k: usize| kinds[k % kinds.len()];
     let mut largest = [0.0_f64; 6];
     for (k, range) in ranges.iter().enumerate() {
-        let largest = &mut largest[kinds[k % kinds.len()]];
-        *largest = largest.max(*range);
+        largest[kind(k)] = largest[kind(k)].max(*range);
     }
     for (k, range) in ranges.iter().enumerate() {
-        let quantum = (quanta[0] * range).max(quanta[1] * largest[kinds[k % kinds.len()]]).max(noise(k));
-        let start = if frames > 0 { value(0, k) } else { 0.0 };
-        let start = if start.abs() <= noise(k) { 0.0 } else { start };
+        let noise = OVER_NOISE * noise[kind(k)];
+        let quantum = (quanta[0] * range).max(quanta[1] * largest[kind(k)]).max(noise);
+        let start = if frames > 0 && value(0, k).abs() > noise { value(0, k) } else { 0.0 };
         let quantum = if *range > 0.0 { quantum } else { 0.0 };
         out.extend_from_slice(&start.to_le_bytes());
         out.extend_from_slice(&quantum.to_le_bytes());
