@@ -20,12 +20,13 @@ export class Modes {
   load(modes) {
     this.modes = modes;
     this.list.parentElement.hidden = modes.length === 0;
-    const items = modes.map(({ frequency, damping, kind }, index) => {
-      const item = Object.assign(document.createElement("li"), { tabIndex: 0 });
+    const items = modes.map(({ name: title = "", frequency, damping, kind }, index) => {
+      const item = Object.assign(document.createElement("li"), { tabIndex: 0, title });
       item.dataset.index = String(index);
       const name = Object.assign(document.createElement("b"), { textContent: `${index + 1}   ${spelled(frequency, 5)} Hz` });
       const shown = words[kind] || (damping ? `damping ${spelled(damping, 3)}` : "");
-      item.append(name, Object.assign(document.createElement("span"), { textContent: shown }));
+      const facts = [title, shown].filter(Boolean).join(" · ");
+      item.append(name, Object.assign(document.createElement("span"), { textContent: facts }));
       return item;
     });
     this.list.replaceChildren(...items);

@@ -390,6 +390,9 @@ frames_per_second = 1000
     execFileSync(program, ["view", out, "--quiet"]);
     const { page, complaints } = await open(browser, join(out, "view.html"));
     assert.equal(await page.locator("#modes li").count(), 5);
+    const { modes } = JSON.parse(readFileSync(join(out, "summary.json"), "utf8"));
+    const shown = await page.locator("#modes li span").allTextContents();
+    modes.forEach(({ name }, k) => assert.ok(name && shown[k].startsWith(name), `${shown[k]} for ${name}`));
     await page.keyboard.press("n");
     await page.waitForFunction(() => document.getElementById("clock").textContent.startsWith("mode 2:"), null, { timeout: 60000 });
     await draws(page);

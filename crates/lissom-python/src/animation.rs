@@ -90,7 +90,7 @@ pub(crate) fn modes_animation(model: &NativeModel, py: Python<'_>, request: &str
             .with_title(document.title.as_deref().unwrap_or_default())
             .with_scene(&scene, &bytes.take())
             .map_err(|error| of_motion(&error))?;
-        let shown = results.with_modes(&found.csv(), &found.shapes_csv());
+        let shown = results.with_modes(&found.csv(), &found.shapes_csv(), found.names());
         shown.map(|results| results.page()).ok_or_else(|| of_motion(&"the modes are not those of the model"))
     })
 }

@@ -276,9 +276,17 @@ fn modes_are_shown_about_their_state() {
     let shown = results["modes"].as_array().unwrap();
     assert_eq!((shown.len(), &results["motion"]["frames"]), (6, &Value::from(1)));
     let nodes = results["motion"]["nodes"].as_array().unwrap().len();
-    for mode in shown {
+    let summary = fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    for (mode, listed) in shown.iter().zip(summary["modes"].as_array().unwrap()) {
         assert_eq!(mode["real"].as_array().unwrap().len(), 6 * (nodes - 1));
+        assert_eq!(mode["name"], listed["name"]);
     }
+    assert!(
+        shown[0]["name"].as_str().unwrap().starts_with("1st bending of `bar` along "),
+        "{}",
+        shown[0]["name"]
+    );
     // The state is the bar under its load: bent by F L³/(3 EI) = 3/600 m, up to shear and to what is beyond linear.
     let motion = Motion::from_bytes(&fs::read(folder.path().join("out/motion.bin")).unwrap()).unwrap();
     let tip = motion.node("bar.end").unwrap();

@@ -60,7 +60,7 @@ impl ResultFolder {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let results = Results::new(&name).with_summary(&summary);
         if path.join(MODES).is_file() {
-            return with_modes(path, results);
+            return with_modes(path, results, &summary);
         }
         let diagram = path.join(CAMPBELL);
         if diagram.is_file() {
@@ -113,12 +113,14 @@ pub(crate) fn read_scene(path: &Path) -> Result<Scene, FolderError> {
         .map_err(|error| FolderError::Scene { path: path.display().to_string(), error })
 }
 
-fn with_modes(path: &Path, results: Results) -> Result<Results, FolderError> {
+fn with_modes(path: &Path, results: Results, summary: &Value) -> Result<Results, FolderError> {
     let (modes, shapes) = (files::read_text(&path.join(MODES))?, files::read_text(&path.join(SHAPES))?);
     let damaged = || foreign(&path.join(SHAPES), MotionError::Damaged);
     let (scene, motion) = drawn(path)?.ok_or_else(|| foreign(&path.join(MOTION), MotionError::Damaged))?;
     let results = results.with_scene(&scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))?;
-    results.with_modes(&modes, &shapes).ok_or_else(damaged)
+    let listed = summary["modes"].as_array().into_iter().flatten();
+    let names = listed.map(|mode| mode["name"].as_str().unwrap_or_default().to_owned()).collect();
+    results.with_modes(&modes, &shapes, names).ok_or_else(damaged)
 }
 
 pub(crate) fn foreign(path: &Path, error: MotionError) -> FolderError {

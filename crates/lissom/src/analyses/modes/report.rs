@@ -42,6 +42,11 @@ impl ModeReport {
         text
     }
 
+    /// The name of each mode, such as "1st bending of `tower` along y".
+    pub fn names(&self) -> Vec<String> {
+        names(&self.shapes, &self.shares)
+    }
+
     /// The table `shapes.csv`: by mode and node its position [m], displacement [m] and rotation [rad] in global axes for unit modal
     /// mass, and imaginary parts of both where a mode has any.
     pub fn shapes_csv(&self) -> String {
@@ -145,7 +150,7 @@ impl AnalysisReport for ModeReport {
             insert("friction_points", json!({ "sticking": points.sticking, "sliding": points.sliding }));
         }
         insert("masses", json!(self.masses));
-        let names = names(&self.shapes, &self.shares);
+        let names = self.names();
         let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
             json!({
                 "mode": index + 1,
@@ -189,7 +194,7 @@ impl AnalysisReport for ModeReport {
             "  mode   frequency [Hz]   damping ratio   {:<13}name, largest kinetic energies",
             "kind"
         );
-        let names = names(&self.shapes, &self.shares);
+        let names = self.names();
         for (index, mode) in self.modes.iter().take(LISTED).enumerate() {
             let _ = writeln!(
                 text,

@@ -183,11 +183,12 @@ impl Results {
         Ok(self)
     }
 
-    /// With natural modes, from the tables `modes.csv` and `shapes.csv`; none if they do not belong to the motion given
-    /// before, which is the state about which the model is linearised.
+    /// With natural modes, from the tables `modes.csv` and `shapes.csv`, and their names; none if they do not belong to the
+    /// motion given before, which is the state about which the model is linearised.
     #[must_use]
-    pub fn with_modes(mut self, modes: &str, shapes: &str) -> Option<Self> {
+    pub fn with_modes(mut self, modes: &str, shapes: &str, names: Vec<String>) -> Option<Self> {
         self.modes = modes::read(modes, shapes, self.motion.as_ref()?.node_count())?;
+        self.modes.iter_mut().zip(names).for_each(|(mode, name)| mode.name = name);
         self.facts = format!("{} modes", self.modes.len());
         Some(self)
     }

@@ -5,6 +5,7 @@ use serde::Serialize;
 /// A mode for pictures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Mode {
+    pub(crate) name: String,
     /// Frequency [Hz].
     pub(crate) frequency: f64,
     /// Damping ratio [-].
@@ -39,7 +40,7 @@ pub(crate) fn read(modes: &str, shapes: &str, nodes: usize) -> Option<Vec<Mode>>
             real.extend_from_slice(&numbers[3..9]);
             imaginary.extend_from_slice(&numbers[9..]);
         }
-        found.push(Mode { frequency, damping, kind, real, imaginary });
+        found.push(Mode { name: String::new(), frequency, damping, kind, real, imaginary });
     }
     rows.next().is_none().then_some(found)
 }
