@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector3, Vector6, lie_bracket_matrix};
 use lissom_solver::{FactorError, Pattern, Scalar, SolverKind, Structure};
-use num_complex::Complex64;
 
 use super::generator::Generator;
-use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
+use super::shifted::{GeneralShift, RealShift, small_square};
 use super::velocity_constraints::{move_to_rates, refuse};
 use super::{SLOW_RATE, rolling_axes};
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
@@ -192,7 +191,7 @@ impl<'a> LinearModel<'a> {
                 .map_err(|error| LinearError::Accelerations { time, error })?;
             unsteadiness = unsteadiness_of(system, &state.kinematics, representative.length);
         }
-        let mut parts = system.empty_linearization();
+        let mut parts = unloaded;
         let (still, unchanged) = nothing(&state.kinematics);
         let point = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &zeros);
         let chart = if is_at_rest { Chart::Body } else { Chart::RelativeToDrift(&state.kinematics.nodes) };
@@ -414,7 +413,7 @@ pub(super) fn point<'b>(
 /// Solves with stiffness and mass at a small shift. With signals and some loads both are unsymmetric, and states have only damping.
 enum Holding<'a> {
     Symmetric(RealShift<'a>),
-    General { solver: ComplexShift<'a>, room: Vec<Complex64> },
+    General(GeneralShift<'a, f64>),
 }
 
 impl<'a> Holding<'a> {
@@ -425,10 +424,9 @@ impl<'a> Holding<'a> {
     ) -> Result<Self, FactorError> {
         let is_symmetric = || is_symmetric(system, representative, unloaded);
         if system.has_signal_feedback() || (system.has_loads_of_motion() && !is_symmetric()) {
-            let mut solver = ComplexShift::new(system, representative);
-            let rate = small_square(representative).sqrt();
-            solver.factor(unloaded, Complex64::new(rate, 0.0))?;
-            return Ok(Self::General { solver, room: vec![Complex64::default(); system.layout().size()] });
+            let mut solver = GeneralShift::new(system, representative);
+            solver.factor(unloaded, small_square(representative).sqrt())?;
+            return Ok(Self::General(solver));
         }
         let mut solver = RealShift::new(system, representative);
         solver.factor(unloaded, -solver.small_square())?;
@@ -442,14 +440,8 @@ impl<'a> Holding<'a> {
                 solver.solve(right);
                 solver.multiplier_factor()
             }
-            Self::General { solver, room } => {
-                for (value, &right) in room.iter_mut().zip(right.iter()) {
-                    *value = Complex64::from(right);
-                }
-                solver.solve(room);
-                for (right, value) in right.iter_mut().zip(room.iter()) {
-                    *right = value.re;
-                }
+            Self::General(solver) => {
+                solver.solve(right);
                 solver.multiplier_factor()
             }
         };
