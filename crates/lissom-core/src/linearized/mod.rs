@@ -43,6 +43,7 @@ pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use energy_shares::EffectiveMasses;
 pub use kinks::Kink;
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
+pub(crate) use model::has_forces;
 pub use model::{LinearError, LinearModel};
 pub use multiblade::NoMultiblade;
 pub use output::OutputDerivatives;

@@ -498,6 +498,22 @@ fn hold(
     Ok([imbalance, released])
 }
 
+/// Whether forces act on a state at rest without multipliers, other than round-off of strains that vanish.
+pub(crate) fn has_forces(system: &System, state: &State, representative: &Representative) -> bool {
+    let (layout, length) = (system.layout(), representative.length);
+    let mut at = state.kinematics.clone();
+    at.stop();
+    let zeros = vec![0.0; state.multipliers.len()];
+    at.show_multipliers(&zeros);
+    let (still, unchanged) = nothing(&at);
+    let mut forces = vec![0.0; layout.size()];
+    system.residual(&point(&at, (&still, &unchanged), &zeros, &zeros), &mut forces);
+    let least = (f64::EPSILON * length).powi(2) * representative.stiffness;
+    let unit = |row: usize| if layout.quantities()[row] == Quantity::Angle { 1.0 } else { length };
+    // What is not a number is a force.
+    !(0..layout.coordinate_count()).all(|row| forces[row].abs() * unit(row) <= least)
+}
+
 /// Largest change of a twist relative to the squares of the rates: in its node's axes, or in axes that do not spin with a wheel.
 fn unsteadiness_of(system: &System, at: &Kinematics, length: f64) -> f64 {
     let size = |twist: &Vector6| {

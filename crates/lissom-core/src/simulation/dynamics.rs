@@ -78,7 +78,7 @@ impl Simulation {
             (velocity_correction, held_values) =
                 begin_motion(&system, &mut state, &representative, &settings, &mut warnings)?;
         } else if known.is_none() {
-            released = equilibrium::hold_start(&system, &mut state, settings.solver);
+            released = equilibrium::hold_start(&system, &mut state, &representative, settings.solver);
         }
         state.violations = vec![0.0; system.layout().multiplier_count];
         system.violations(&state.kinematics, &mut state.violations);

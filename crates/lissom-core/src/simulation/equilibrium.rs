@@ -9,7 +9,8 @@ use lissom_solver::SolverKind;
 use super::relaxation::{may_help, relax};
 use crate::errors::InitialError;
 use crate::errors::Warning;
-use crate::linearized::LinearModel;
+use crate::linearized::{LinearModel, has_forces};
+use crate::scaling::Representative;
 use crate::schemes::statics;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -18,7 +19,17 @@ use crate::system::{State, System};
 /// Initialises load steps. If loads act at once and are balanced by constraints only, the state is an equilibrium: its multipliers are
 /// computed, reported, and included in the work. Otherwise returns the energy that the unbalanced forces release until equilibrium, by
 /// the linear model [J].
-pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) -> f64 {
+pub(crate) fn hold_start(
+    system: &System,
+    state: &mut State,
+    representative: &Representative,
+    solver: &SolverKind,
+) -> f64 {
+    let is_at_rest = state.kinematics.coordinates.iter().all(|motion| motion.rate == 0.0);
+    if is_at_rest && !has_forces(system, state, representative) {
+        state.multipliers.fill(0.0);
+        return 0.0;
+    }
     let mut still = state.clone();
     for node in &mut still.kinematics.nodes {
         node.twist.fill(0.0);
