@@ -126,6 +126,22 @@ impl Pattern {
         self.column(column).binary_search(&row).ok().map(|offset| self.column_starts[column] + offset)
     }
 
+    /// The entries below the diagonal, column by column: row, column, and the indices of the entry and of its mirror image.
+    pub fn mirrors(&self) -> impl Iterator<Item = (usize, usize, [usize; 2])> + '_ {
+        // Columns are visited in ascending order, in which the entries of every row above the diagonal follow each other.
+        let mut next = self.column_starts[..self.size].to_vec();
+        let entries = (0..self.size).flat_map(move |column| {
+            let start = self.column_starts[column];
+            self.column(column).iter().enumerate().map(move |(k, &row)| (row, column, start + k))
+        });
+        entries.filter(|&(row, column, _)| row > column).map(move |(row, column, below)| {
+            let above = next[row];
+            next[row] += 1;
+            debug_assert_eq!(self.row_indices[above], column, "the pattern is structurally symmetric");
+            (row, column, [below, above])
+        })
+    }
+
     /// `product = A x` for the matrix with these values.
     ///
     /// # Panics

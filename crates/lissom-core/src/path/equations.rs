@@ -194,14 +194,8 @@ impl PathWork {
 /// Whether the coordinate block (rows and columns below `count`) of equilibrated values on `pattern` is symmetric. The tangent of
 /// follower loads, which are not conservative, is not.
 fn is_symmetric(pattern: &Pattern, values: &[f64], count: usize) -> bool {
-    (0..count).all(|column| {
-        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-        let entries = pattern.row_indices()[range.clone()].iter().zip(&values[range]);
-        entries.filter(|&(&row, _)| row > column && row < count).all(|(&row, &value)| {
-            let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
-            (value - mirror).abs() <= ASYMMETRY
-        })
-    })
+    let mut entries = pattern.mirrors().filter(|&(row, ..)| row < count);
+    entries.all(|(_, _, [below, above])| (values[below] - values[above]).abs() <= ASYMMETRY)
 }
 
 /// One step from `start`.

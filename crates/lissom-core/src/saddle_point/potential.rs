@@ -7,7 +7,7 @@
 //!
 //! It is checked for random x and y. A can then be replaced by its symmetric part, which has the same solutions x.
 
-use lissom_solver::{Multifrontal, Pattern, Structure};
+use lissom_solver::{Pattern, Structure, Symmetric};
 
 use super::{Matrix, SaddlePoint};
 
@@ -27,7 +27,8 @@ pub(crate) fn has_potential(
     omitted: &[usize],
 ) -> bool {
     let pattern = &*structure.pattern;
-    let matrix = Matrix::new(Box::new(Multifrontal::new(structure)), structure);
+    // Its lower half: any matrix yields motions that satisfy the constraints.
+    let matrix = Matrix::new(Box::new(Symmetric::new(structure)), structure);
     let mut saddle = SaddlePoint::new(matrix, count).equilibrated(pattern.size());
     saddle.omit(omitted);
     saddle.matrices.values.copy_from_slice(values);
@@ -60,11 +61,9 @@ fn antisymmetric_work(pattern: &Pattern, values: &[f64], [x, y]: [&[f64]; 2]) ->
     let noise = |own: &[f64]| NOISE * own.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let (of_x, of_y) = (noise(x), noise(y));
     let mut sums = [0.0; 2];
-    for column in 0..x.len() {
-        let start = pattern.column_starts()[column];
-        for (k, &row) in pattern.column(column).iter().enumerate().filter(|&(_, &row)| row < x.len()) {
-            let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
-            let rest = values[start + k] - mirror;
+    for (row, column, [below, above]) in pattern.mirrors().filter(|&(row, ..)| row < x.len()) {
+        let rest = values[below] - values[above];
+        for (rest, row, column) in [(rest, row, column), (-rest, column, row)] {
             sums[0] += y[row] * rest * x[column];
             sums[1] += (y[row].abs() + of_y) * rest.abs() * (x[column].abs() + of_x);
         }
@@ -74,13 +73,9 @@ fn antisymmetric_work(pattern: &Pattern, values: &[f64], [x, y]: [&[f64]; 2]) ->
 
 /// Replaces the first `count` rows and columns by their symmetric part.
 pub(crate) fn symmetrise(pattern: &Pattern, values: &mut [f64], count: usize) {
-    for column in 0..count {
-        let start = pattern.column_starts()[column];
-        for (k, &row) in pattern.column(column).iter().enumerate().filter(|&(_, &row)| row < column) {
-            let Some(mirror) = pattern.position(column, row) else { continue };
-            let mean = 0.5 * (values[start + k] + values[mirror]);
-            (values[start + k], values[mirror]) = (mean, mean);
-        }
+    for (_, _, [below, above]) in pattern.mirrors().filter(|&(row, ..)| row < count) {
+        let mean = 0.5 * (values[below] + values[above]);
+        (values[below], values[above]) = (mean, mean);
     }
 }
 

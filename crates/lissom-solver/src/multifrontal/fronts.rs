@@ -397,6 +397,10 @@ impl Symbolic {
     /// Assigns every entry to the front of the earlier of its row and its column.
     fn map_entries(&mut self, structure: &Structure) {
         let pattern = &structure.pattern;
+        let mut mirrors = vec![0_u32; if self.is_symmetric { 0 } else { pattern.entries() }];
+        for (_, _, [below, above]) in pattern.mirrors().filter(|_| !self.is_symmetric) {
+            (mirrors[below], mirrors[above]) = (above as u32, below as u32);
+        }
         // Local row in the present front of every step on its boundary.
         let mut local = vec![0_u32; self.unknowns.len()];
         for front in &mut self.fronts {
@@ -428,10 +432,9 @@ impl Symbolic {
                     if front.panels == 1 {
                         continue;
                     }
-                    let mirror = pattern.position(column, row).expect("the pattern is symmetric");
                     let target =
                         places.upper + row_of_other * places.upper_step + pivot * places.upper_stride;
-                    entries.push((target as u32, mirror as u32));
+                    entries.push((target as u32, mirrors[source as usize]));
                 }
             }
             entries.sort_unstable();
