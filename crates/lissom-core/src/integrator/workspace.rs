@@ -1,5 +1,6 @@
 //! What a step works with, allocated once.
 
+use lissom_solver::KINDS;
 use serde::{Deserialize, Serialize};
 
 use super::anderson::Anderson;
@@ -9,7 +10,7 @@ use super::predictor::Predictor;
 use crate::consistent::redundancy::Redundancy;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::starts::JointStarts;
-use crate::kinematics::{Kinematics, Layout, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, Layout, Quantity};
 use crate::saddle_point::SaddlePoint;
 use crate::saddle_point::stage_tangents::StageTangents;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStepState};
@@ -146,7 +147,16 @@ impl Workspace {
         let stages = scheme.stages.len();
         let count = layout.coordinate_count();
         let sizes = sizes(layout, representative);
-        let tangents = StageTangents::new(solver, system.structure(), &scheme.coupling);
+        // Stiffness of elastic solids is symmetric; of other models it is so at equilibrium only, or not at all.
+        let is_symmetric = !scheme.dynamic
+            && solver.name == KINDS[0].name
+            && !system.has_feedback()
+            && 2 * layout.node_rows.iter().filter(|rows| rows[3] == LOCKED).count() > layout.node_rows.len();
+        let tangents = if is_symmetric {
+            StageTangents::symmetric(solver, system.structure(), &scheme.coupling)
+        } else {
+            StageTangents::new(solver, system.structure(), &scheme.coupling)
+        };
         let mut tangent = SaddlePoint::new(tangents, count);
         // Without constraints elimination does not need rows of one size, and a tangent with touches is factored only once.
         if equilibrated && (system.contacts().is_empty() || layout.multiplier_count > 0) {

@@ -89,6 +89,8 @@ pub(crate) struct Learned {
     omitted: Vec<usize>,
     dependent: Vec<usize>,
     fell_back: Option<(usize, f64)>,
+    /// Whether the solver is for symmetric matrices.
+    is_symmetric: bool,
 }
 
 impl<M: Matrices> SaddlePoint<M> {
@@ -274,6 +276,7 @@ impl SaddlePoint<StageTangents> {
             omitted: self.omitted.clone(),
             dependent: self.dependent.clone(),
             fell_back: self.fell_back,
+            is_symmetric: self.matrices.is_symmetric(),
         }
     }
 
@@ -287,6 +290,9 @@ impl SaddlePoint<StageTangents> {
         }
         self.omitted.clone_from(&from.omitted);
         self.dependent.clone_from(&from.dependent);
+        if !from.is_symmetric {
+            self.matrices.generalise(structure);
+        }
         if from.fell_back.is_some()
             && self.fell_back.is_none()
             && let Some(kind) = self.fall_back.take()

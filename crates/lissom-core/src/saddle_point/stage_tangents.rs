@@ -12,6 +12,7 @@ use super::Matrices;
 use super::equilibration::Equilibration;
 use super::tangent_numbers::TangentNumbers;
 use super::tangent_values::TangentValues;
+use crate::round_off;
 use crate::schemes::{Coupling, StageSystem};
 
 /// A solver with the values it factors.
@@ -105,6 +106,9 @@ pub(crate) enum FactoredSystem {
 /// The factored tangents of a scheme, in the order of its decoupled systems.
 pub(crate) struct StageTangents {
     pub(crate) systems: Vec<FactoredSystem>,
+    /// The solver to continue with after the first matrix that is not symmetric, if the one in use is for symmetric matrices.
+    general: Option<&'static SolverKind>,
+    threads: usize,
 }
 
 impl StageTangents {
@@ -115,17 +119,51 @@ impl StageTangents {
                 FactoredSystem::Complex(Factored::new((kind.complex)(structure), structure))
             }
         });
-        Self { systems: systems.collect() }
+        Self { systems: systems.collect(), general: None, threads: 1 }
+    }
+
+    /// For matrices that are symmetric as a rule; `general` is the solver for others.
+    pub(crate) fn symmetric(
+        general: &'static SolverKind,
+        structure: &Structure,
+        coupling: &Coupling,
+    ) -> Self {
+        let tangents = Self::new(&lissom_solver::SYMMETRIC, structure, coupling);
+        Self { general: Some(general), ..tangents }
+    }
+
+    /// Whether a solver for symmetric matrices is in use.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        self.general.is_some()
+    }
+
+    /// Changes to the solver for matrices that are not symmetric.
+    pub(crate) fn generalise(&mut self, structure: &Structure) {
+        if let Some(kind) = self.general {
+            self.replace_solver(kind, structure);
+            self.set_threads(self.threads);
+        }
     }
 
     /// Sets the number of threads that share factorisations and solves that are large enough.
     pub(crate) fn set_threads(&mut self, threads: usize) {
+        self.threads = threads;
         for system in &mut self.systems {
             match system {
                 FactoredSystem::Real(own) => own.solver.set_threads(threads),
                 FactoredSystem::Complex(own) => own.solver.set_threads(threads),
             }
         }
+    }
+
+    /// Whether equilibrated values are symmetric except for round-off.
+    fn has_symmetric_values(&self, pattern: &Pattern) -> bool {
+        self.systems.iter().all(|system| match system {
+            FactoredSystem::Real(Factored { values, .. }) => pattern
+                .mirrors()
+                .all(|(.., [below, above])| (values[below] - values[above]).abs() <= round_off::MATRIX_ENTRY),
+            FactoredSystem::Complex(_) => false,
+        })
     }
 
     /// Stored numbers of the factors.
@@ -287,6 +325,9 @@ impl Matrices for StageTangents {
                 }
             }
         }
+        if self.is_symmetric() && !self.has_symmetric_values(pattern) {
+            self.generalise(structure);
+        }
     }
 
     fn omit(&mut self, structure: &Structure, unknown: usize, by: f64) {
@@ -324,6 +365,7 @@ impl Matrices for StageTangents {
     }
 
     fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
+        self.general = None;
         for system in &mut self.systems {
             match system {
                 FactoredSystem::Real(own) => own.solver = (kind.real)(structure),
