@@ -68,3 +68,42 @@ fn the_stability_of_every_equilibrium_is_reported() {
     assert!((reported[1]["time"].as_f64().unwrap() - 0.65).abs() < 1e-9, "{reported:?}");
     assert_eq!(reported[1]["unstable_directions"], 1);
 }
+
+/// A solid column of length 2 that is pushed along itself: its Euler load is π² EI/(4 ℓ²) = 51.4 N, at 0.64 of the load.
+const SOLID_COLUMN: &str = r#"
+lissom = 1
+[materials.soft]
+E = 1e7
+nu = 0
+density = 1000
+[solids.bar]
+size = [2, 0.1, 0.1]
+divisions = [8, 1, 1]
+material = "soft"
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "bar.west"
+[loads.end]
+kind = "force"
+on = "bar.east"
+vector = [-80, 0, 0]
+[analysis]
+kind = "statics"
+end = 1
+steps = 5
+"#;
+
+#[test]
+fn a_solid_column_is_unstable_beyond_its_euler_load() {
+    let folder = Folder::new("statics-solid");
+    folder.write("column.toml", SOLID_COLUMN);
+    let run = lissom(&["run", "column.toml", "--out", "out", "--no-plots"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let facts = summary(&folder.path().join("out"));
+    let reported = facts["stability"].as_array().unwrap();
+    let fact =
+        |k: usize| (reported[k]["time"].as_f64().unwrap(), reported[k]["unstable_directions"].as_u64());
+    assert_eq!((fact(0), fact(1)), ((0.2, Some(0)), (0.8, Some(2))), "{reported:?}");
+    assert!(run.errors.contains("unstable"), "{}", run.errors);
+}

@@ -20,6 +20,7 @@ mod energy_shares;
 mod free;
 mod generator;
 mod geometric;
+mod inertia;
 mod kinks;
 mod krylov;
 mod lanczos;
@@ -41,6 +42,7 @@ mod whirl;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use energy_shares::EffectiveMasses;
+pub(crate) use inertia::{is_stable, is_stable_like};
 pub use kinks::Kink;
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
 pub(crate) use model::has_forces;

@@ -29,7 +29,7 @@ use crate::system::{Linearization, State, System};
 const ASYMMETRY: f64 = 1e-9;
 
 /// Squared rates below this fraction of the small one that represents zero are zero.
-const NEUTRAL: f64 = 1e-6;
+pub(super) const NEUTRAL: f64 = 1e-6;
 
 diagnostics! {
     /// A linear model that does not exist.
@@ -385,7 +385,7 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
 }
 
 /// Whether all velocities are zero.
-fn is_at_rest(at: &Kinematics) -> bool {
+pub(super) fn is_at_rest(at: &Kinematics) -> bool {
     at.nodes.iter().all(|node| node.twist == Vector6::zeros())
         && at.coordinates.iter().all(|motion| motion.rate == 0.0)
 }
@@ -610,26 +610,32 @@ fn symmetrise(system: &System, representative: &Representative, parts: &mut Line
 
 /// Whether stiffness and mass are symmetric except for round-off.
 pub(super) fn is_symmetric(system: &System, representative: &Representative, parts: &Linearization) -> bool {
+    has_symmetric(system, representative, &parts.stiffness, representative.stiffness)
+        && has_symmetric(system, representative, &parts.mass, 0.0)
+}
+
+/// Whether values on the tangent's pattern, usually of this size for lengths, are symmetric except for round-off.
+pub(super) fn has_symmetric(
+    system: &System,
+    representative: &Representative,
+    values: &[f64],
+    usual: f64,
+) -> bool {
     let pattern = system.pattern();
     let quantities = system.layout().quantities();
     let unit = |row: usize| match quantities[row] {
         Quantity::Length | Quantity::State => 1.0,
         Quantity::Angle => representative.length,
     };
-    [(&parts.stiffness, representative.stiffness), (&parts.mass, 0.0)].into_iter().all(|(values, usual)| {
-        let range = |column: usize| pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-        let largest: Vec<f64> = (0..pattern.size())
-            .map(|column| values[range(column)].iter().fold(0.0, |most: f64, value| most.max(value.abs())))
-            .collect();
-        (0..pattern.size()).all(|column| {
-            let rows = pattern.column(column).iter().zip(&values[range(column)]);
-            rows.filter(|&(&row, _)| row > column).all(|(&row, &value)| {
-                let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
-                let difference = (value - mirror).abs();
-                difference <= ASYMMETRY * value.abs().max(mirror.abs())
-                    || difference <= round_off::MATRIX_ENTRY * (largest[row] * largest[column]).sqrt()
-                    || difference <= f64::EPSILON * usual * unit(row) * unit(column)
-            })
-        })
+    let range = |column: usize| pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+    let largest: Vec<f64> = (0..pattern.size())
+        .map(|column| values[range(column)].iter().fold(0.0, |most: f64, value| most.max(value.abs())))
+        .collect();
+    pattern.mirrors().all(|(row, column, [below, above])| {
+        let (value, mirror) = (values[below], values[above]);
+        let difference = (value - mirror).abs();
+        difference <= ASYMMETRY * value.abs().max(mirror.abs())
+            || difference <= round_off::MATRIX_ENTRY * (largest[row] * largest[column]).sqrt()
+            || difference <= f64::EPSILON * usual * unit(row) * unit(column)
     })
 }

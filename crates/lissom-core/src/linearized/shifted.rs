@@ -12,13 +12,13 @@ use crate::saddle_point::potential::Noise;
 use crate::saddle_point::{Matrix, SaddlePoint, SolverOf};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
-use crate::system::{Linearization, System};
+use crate::system::{Blend, Linearization, System};
 
 /// The squared rate from which the search for modes starts, relative to that of the stiffest parts.
 pub(super) const START_RATE: f64 = 1e-6;
 
 /// Residual of a random right-hand side of magnitude 1, above which the signs of pivots are not trusted.
-const ACCURATE: f64 = 1e-3;
+pub(super) const ACCURATE: f64 = 1e-3;
 
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
 pub(super) struct RealShift<'a> {
@@ -47,15 +47,27 @@ impl<'a> RealShift<'a> {
 
     /// Factorises at λ = `shift` [1/s²]; returns the number of eigenvalues λ below it.
     pub(super) fn factor(&mut self, parts: &Linearization, shift: f64) -> Result<usize, FactorError> {
+        self.factor_values(shift, |_, blend, values| {
+            for (k, value) in values.iter_mut().enumerate() {
+                *value = blend.place * parts.stiffness[k]
+                    + blend.acceleration * parts.mass[k]
+                    + blend.augmented * parts.gram[k]
+                    + blend.constraint * parts.constraint[k];
+            }
+            Ok(())
+        })
+    }
+
+    /// The same for values that `fill` supplies, the derivatives weighted by these factors.
+    pub(super) fn factor_values(
+        &mut self,
+        shift: f64,
+        fill: impl FnOnce(&Scaled, Blend<f64>, &mut [f64]) -> Result<(), FactorError>,
+    ) -> Result<usize, FactorError> {
         let magnitude = if shift == 0.0 { self.small_square() } else { shift.abs() };
         self.scaled = Scaled::at_rate(&self.representative, magnitude.sqrt());
         let blend = self.scaled.blend(Weights::of_motion(0.0, -shift / magnitude));
-        for (k, value) in self.saddle.matrices.values.iter_mut().enumerate() {
-            *value = blend.place * parts.stiffness[k]
-                + blend.acceleration * parts.mass[k]
-                + blend.augmented * parts.gram[k]
-                + blend.constraint * parts.constraint[k];
-        }
+        fill(&self.scaled, blend, &mut self.saddle.matrices.values)?;
         let (structure, layout) = (self.system.structure(), self.system.layout());
         let report = self.saddle.factor(structure, self.scaled.scale())?;
         let negative = report.negative_pivots.unwrap_or(usize::MAX);

@@ -6,7 +6,7 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::consistent::mobility::mobility;
 use crate::errors::Warning;
 use crate::errors::warn;
-use crate::linearized::LinearModel;
+use crate::linearized::{LinearModel, is_stable, is_stable_like};
 use crate::settings::Problem;
 use crate::system::State;
 
@@ -39,7 +39,15 @@ pub(crate) fn unstable_directions(Problem { system, settings }: Problem<'_>, sta
 impl Monitor for Stability {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let time = step.end.kinematics.time;
-        let directions = unstable_directions(step.problem, step.end);
+        let (system, integrator) = (step.problem.system, &mut *step.integrator);
+        let (representative, work) = (&integrator.representative, &mut *integrator.work);
+        let is_certain = integrator.jacobian_state.has_tangent
+            && is_stable_like(system, step.end, representative, (&integrator.scaled, &mut work.tangent));
+        let directions = if is_certain || is_stable(system, step.end, (representative, &work.redundancy)) {
+            Some(0)
+        } else {
+            unstable_directions(step.problem, step.end)
+        };
         if self.changes.last().is_none_or(|(_, known)| *known != directions) {
             self.changes.push((time, directions));
         }

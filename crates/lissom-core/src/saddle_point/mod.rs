@@ -24,7 +24,7 @@ pub(crate) mod stage_tangents;
 mod tangent_numbers;
 mod tangent_values;
 
-use lissom_solver::{FactorError, FactorReport, SolverKind, Structure};
+use lissom_solver::{FactorError, FactorReport, Pattern, SolverKind, Structure};
 use serde::{Deserialize, Serialize};
 
 use equilibration::Equilibration;
@@ -268,6 +268,19 @@ impl<S: SolverOf> SaddlePoint<Matrix<S>> {
 }
 
 impl SaddlePoint<StageTangents> {
+    /// Scales the values of another matrix like the factored one, and omits the same equations; `scale` is that of the constraints' rows.
+    pub(crate) fn scale_as_factored(&self, pattern: &Pattern, values: &mut [f64], scale: f64) {
+        if let Some(equilibration) = &self.equilibration {
+            equilibration.scale_matrix(pattern, values);
+        }
+        let diagonal = if self.equilibration.is_some() { 1.0 } else { scale };
+        for (unknowns, by) in [(&self.omitted, diagonal), (&self.dependent, COMPLIANCE * diagonal)] {
+            for position in unknowns.iter().filter_map(|&unknown| pattern.position(unknown, unknown)) {
+                values[position] -= by;
+            }
+        }
+    }
+
     /// What outlives a step.
     pub(crate) fn learned(&self) -> Learned {
         Learned {
@@ -326,7 +339,6 @@ impl SaddlePoint<StageTangents> {
 mod tests {
     use std::sync::Arc;
 
-    use lissom_solver::Pattern;
     use num_complex::Complex64;
 
     use super::*;

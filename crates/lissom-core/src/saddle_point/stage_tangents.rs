@@ -157,7 +157,7 @@ impl StageTangents {
     }
 
     /// Whether equilibrated values are symmetric except for round-off.
-    fn has_symmetric_values(&self, pattern: &Pattern) -> bool {
+    pub(crate) fn has_symmetric_values(&self, pattern: &Pattern) -> bool {
         self.systems.iter().all(|system| match system {
             FactoredSystem::Real(Factored { values, .. }) => pattern
                 .mirrors()
