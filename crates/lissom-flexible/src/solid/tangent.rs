@@ -8,7 +8,7 @@
 //! S* = S(E + sym Fᵀ ΔF), as in shells [Magisano, Leonetti and Garcea 2017]. That of rubber has such a pressure of the mean dilatation,
 //! m* = m + (K - K₀)/V₀ Σ v_I·Δx_I: as if the pressure were an unknown of the element, whose equation is solved in every iteration.
 
-use lissom_motion::Matrix3;
+use lissom_motion::{Matrix3, Vector3};
 
 use super::deformation::Deformation;
 use super::law::SolidModel;
@@ -24,17 +24,23 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         let geometric = self.geometric_stresses(&points, stressed);
         let size = 6 * NODES;
         let volume_slopes = self.volume_slopes(&points);
+        let mut blocks = [[Matrix3::zeros(); NODES]; NODES];
         for (p, point) in points.iter().enumerate() {
             let (slopes, volume) = (&self.reference.gradients[p], self.reference.volumes[p]);
+            // Derivatives of the stress by the entries of the deformation gradient, of which those by G are combinations.
+            let moduli: [[Matrix3; 3]; 3] = std::array::from_fn(|k| {
+                std::array::from_fn(|along| {
+                    let slope = Vector3::ith(along, volume);
+                    self.law.stress_change(point, (&geometric[p], mean), (k, &slope))
+                })
+            });
             for (j, slope) in slopes.iter().enumerate() {
-                for k in 0..3 {
-                    let change = volume * self.law.stress_change(point, (&geometric[p], mean), (k, slope));
-                    // The tangent is symmetric: rows from the diagonal block on.
-                    for (i, other) in slopes.iter().enumerate().skip(j) {
+                let changes = moduli.each_ref().map(|[x, y, z]| x * slope.x + y * slope.y + z * slope.z);
+                // The tangent is symmetric: rows from the diagonal block on.
+                for (block, other) in blocks[j].iter_mut().zip(slopes).skip(j) {
+                    for (k, change) in changes.iter().enumerate() {
                         let force = change * other;
-                        for row in 0..3 {
-                            out.stiffness[(6 * i + row) * size + 6 * j + k] += force[row];
-                        }
+                        (0..3).for_each(|row| block[(row, k)] += force[row]);
                     }
                 }
             }
@@ -42,7 +48,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         let factor = self.law.bulk_of_mean() / self.reference.volume;
         for j in 0..NODES {
             for i in j..NODES {
-                let block = factor * volume_slopes[i] * volume_slopes[j].transpose();
+                let block = blocks[j][i] + factor * volume_slopes[i] * volume_slopes[j].transpose();
                 for row in 0..3 {
                     for k in 0..3 {
                         out.stiffness[(6 * i + row) * size + 6 * j + k] += block[(row, k)];
