@@ -82,6 +82,11 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
         constraints: layout.multiplier_count - layout.of_velocities.len(),
         ..Mobility::default()
     };
+    if layout.of_velocities.is_empty() && !has_loops(system) {
+        result.rank = result.constraints;
+        result.freedoms = result.coordinates.saturating_sub(result.rank);
+        return result;
+    }
     let mut reduced: Vec<Reduced> = Vec::new();
     let mut by_pivot: BTreeMap<usize, usize> = BTreeMap::new();
     // Columns of nodes precede those of joint coordinates.
