@@ -12,8 +12,10 @@ use crate::text::report::{Problem, Report};
 /// Memory of a node of a beam with its elements, its tangent, its factors and the motion of the run [bytes]: lines of
 /// 10⁴ and 3·10⁴ elements need 53 kB (Radau IIA) to 79 kB (generalized-α) for each node at most.
 const PER_NODE: f64 = 5e4;
-/// The same of a body: 20 000 free ones need 15 kB each, and joints more.
+/// The same of a body: 20 000 free ones need 19 kB each.
 const PER_BODY: f64 = 3e4;
+/// The same of a joint: each of a chain of 20 000 needs 26 kB.
+const PER_JOINT: f64 = 3e4;
 /// Memory that every machine has [bytes].
 const SMALL: f64 = 1e8;
 /// Upper limit of memory on any machine [bytes].
@@ -47,7 +49,8 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     // A node has half the unknowns of one of a beam, and more neighbours.
     let in_solid = |solid: &ElasticSolid| 2.0 * PER_NODE * solid.mesh.positions.len() as f64;
     let of_solids = document.elastic_solids.iter().map(in_solid).sum::<f64>();
-    let of_bodies = PER_BODY * (document.bodies.len() + document.point_masses.len()) as f64;
+    let of_bodies = PER_BODY * (document.bodies.len() + document.point_masses.len()) as f64
+        + PER_JOINT * document.joints.len() as f64;
     let memory = of_shells + of_solids + of_bodies + PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
     // The available memory is not queried for small models: that would take a tenth of the time of a sweep's member.
     if memory <= SMALL {
@@ -87,12 +90,13 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     }
     let masses = document.point_masses.iter().map(|mass| mass.name.span);
     if let Some(first) = document.bodies.iter().map(|body| body.name.span).chain(masses).next()
-        && 2.0 * of_bodies > memory
+        && (2.0 * of_bodies > memory || document.beams.is_empty())
     {
         let message = format!(
-            "the model requires about {} of memory, most of it for its {} bodies and point masses; available are {}",
+            "the model requires about {} of memory, most of it for its {} bodies and point masses with {} joints; available are {}",
             size(memory),
             document.bodies.len() + document.point_masses.len(),
+            document.joints.len(),
             size(available)
         );
         problems.push(Problem::error(first, message).help("use fewer bodies, or a machine with more memory"));
