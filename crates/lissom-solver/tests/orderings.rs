@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_solver::samples::{Model, Random, chain, grid, tree};
+use lissom_solver::samples::{Model, Random, backward_error, chain, grid, right_hand_side, tree};
 use lissom_solver::{Group, Pattern, Structure, kind, minimum_degree_order, profile_order};
 use proptest::prelude::*;
 
@@ -93,6 +93,35 @@ fn fill_stays_small() {
     let structure = chain(20_000).structure();
     let entries = (kind("sparse").unwrap().real)(&structure).factor_entries();
     assert!(entries < 700_000, "{entries}");
+}
+
+/// Nodes in a cube, each coupled with those around it, some of them held; minimum degree alone stores twice as many numbers.
+#[test]
+fn a_lattice_is_divided() {
+    const SIDE: usize = 14;
+    let mut model = Model::default();
+    let nodes: Vec<usize> = (0..SIDE.pow(3)).map(|_| model.group(3, &[])).collect();
+    let at = |i: usize, j: usize, k: usize| nodes[(i * SIDE + j) * SIDE + k];
+    for i in 0..SIDE - 1 {
+        for j in 0..SIDE - 1 {
+            for k in 0..SIDE - 1 {
+                let corners: Vec<usize> = (0..8).map(|c| at(i + c % 2, j + c / 2 % 2, k + c / 4)).collect();
+                model.element(&corners);
+            }
+            if i == 0 {
+                model.constrain(&[at(0, j, 0)], 2);
+            }
+        }
+    }
+    let structure = model.structure();
+    let values: Vec<f64> = model.values(&structure.pattern, 1, 1.0);
+    let right = right_hand_side::<f64>(model.size, 2);
+    let mut solver = (kind("sparse").unwrap().real)(&structure);
+    assert!(solver.factor_entries() < 9_000_000, "{}", solver.factor_entries());
+    solver.factor(&values).unwrap();
+    let mut solution = right.clone();
+    solver.solve(&mut solution);
+    assert!(backward_error(&structure.pattern, &values, &solution, &right, false) < 1e-12);
 }
 
 #[test]

@@ -7,7 +7,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::GroupGraph;
+use super::{GroupGraph, dissection};
 use crate::structure::{Group, HostCount, Structure};
 
 /// Elimination order of the groups with little fill. Every group follows its last host, and the groups that are eliminated with
@@ -18,7 +18,13 @@ use crate::structure::{Group, HostCount, Structure};
 /// # Panics
 /// If [`Structure::check`] rejects the structure.
 pub fn minimum_degree_order(structure: &Structure) -> Vec<usize> {
-    order(structure, &GroupGraph::new(structure))
+    let graph = GroupGraph::new(structure);
+    order(structure, &graph, vec![0; graph.len()])
+}
+
+/// The same, with the separators of a nested dissection last.
+pub(crate) fn dissected_order(structure: &Structure, graph: &GroupGraph) -> Vec<usize> {
+    order(structure, graph, dissection::ranks(structure, graph))
 }
 
 /// Elimination order of the groups' columns with little fill for any choice of pivot rows: minimum degree of AᵀA, whose factor
@@ -28,11 +34,12 @@ pub(crate) fn column_order(structure: &Structure) -> Vec<usize> {
     let free = |group: &Group| Group { hosts: Vec::new(), ..group.clone() };
     let groups = structure.groups.iter().map(free).collect();
     let free = Structure { groups, ..structure.clone() };
-    order(&free, &GroupGraph::new(structure).square())
+    order(&free, &GroupGraph::new(structure).square(), vec![0; structure.groups.len()])
 }
 
-fn order(structure: &Structure, graph: &GroupGraph) -> Vec<usize> {
-    let mut elimination = Elimination::new(structure, graph);
+/// Groups of a higher rank are no candidates before those of lower ranks.
+fn order(structure: &Structure, graph: &GroupGraph, ranks: Vec<u32>) -> Vec<usize> {
+    let mut elimination = Elimination::new(structure, graph, ranks);
     elimination.run();
     let mut order = elimination.order;
     assert_eq!(order.len(), graph.len(), "hosts form no cycle");
@@ -60,8 +67,9 @@ struct Elimination {
     has_hosts: Vec<bool>,
     hosts: HostCount,
     freed: Vec<u32>,
-    /// Degree, time at which it was computed, variable.
-    heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
+    ranks: Vec<u32>,
+    /// Rank, degree, time at which it was computed, variable.
+    heap: BinaryHeap<Reverse<(u32, u64, u64, u32)>>,
     withheld: Vec<u32>,
     order: Vec<usize>,
     remaining_weight: u64,
@@ -93,7 +101,7 @@ struct Stamped {
 }
 
 impl Elimination {
-    fn new(structure: &Structure, graph: &GroupGraph) -> Elimination {
+    fn new(structure: &Structure, graph: &GroupGraph, ranks: Vec<u32>) -> Elimination {
         let count = graph.len();
         // As in Amestoy, Davis, Duff 2004 (ACM Trans. Math. Softw. 30, 381): nodes of more than 10 √n neighbours.
         let dense = 16.0_f64.max(10.0 * (count as f64).sqrt()) as usize;
@@ -119,7 +127,7 @@ impl Elimination {
         let has_hosts: Vec<bool> = structure.groups.iter().map(|group| !group.hosts.is_empty()).collect();
         let heap = (0..count)
             .filter(|&group| states[group] == State::Variable && !has_hosts[group])
-            .map(|group| Reverse((degrees[group], 0, group as u32)))
+            .map(|group| Reverse((ranks[group], degrees[group], 0, group as u32)))
             .collect();
         let remaining_weight = weights.iter().sum();
         let graph = QuotientGraph {
@@ -142,6 +150,7 @@ impl Elimination {
             has_hosts,
             hosts: HostCount::new(&structure.groups),
             freed: Vec::new(),
+            ranks,
             heap,
             withheld,
             order: Vec::with_capacity(count),
@@ -150,7 +159,7 @@ impl Elimination {
     }
 
     fn run(&mut self) {
-        while let Some(Reverse((degree, _, variable))) = self.heap.pop() {
+        while let Some(Reverse((_, degree, _, variable))) = self.heap.pop() {
             let index = variable as usize;
             if self.graph.states[index] == State::Variable && self.graph.degrees[index] == degree {
                 self.eliminate(index);
@@ -307,7 +316,7 @@ impl Elimination {
             .min(self.remaining_weight - own);
         self.graph.degrees[member] = degree;
         if !self.has_hosts[member] {
-            self.heap.push(Reverse((degree, self.marked.stamp, member as u32)));
+            self.heap.push(Reverse((self.ranks[member], degree, self.marked.stamp, member as u32)));
         }
     }
 
