@@ -29,7 +29,7 @@ const constants = (kind, part, drawn) => {
   }
   if (kind === "shell" && part.volume !== undefined) {
     add("volume", `${spelled(part.volume, 5)} m³`);
-    add("elements", String((part.tetrahedra?.length ?? 0) + (part.hexahedra?.length ?? 0)));
+    add("elements", String(part.element_count));
     add("nodes", String(part.nodes.length));
   } else if (kind === "shell") {
     const [least, most] = [Math.min(...part.thickness), Math.max(...part.thickness)];

@@ -298,6 +298,10 @@ impl Reader {
             let remedy = "write all nodes; a line that is continued ends with a comma";
             return Err(MeshError::at(line, found, remedy));
         }
+        if shape == MeshShape::Line3 {
+            // The middle stands between the ends.
+            labels.swap(1, 2);
+        }
         self.draft.add_element(line, number, shape, labels).map(|_| ())
     }
 
@@ -488,8 +492,8 @@ pub(crate) mod tests {
             ("7, 1, 2,\n3, 4", "7, 1, 2, 3, 4, 5", "line 11: element 7 has 5 nodes, S4R has 4"),
             ("9, 2, 5, 3", "9, 2, 6, 3", "line 14: node 6 is not in the file"),
             ("9, 2, 5, 3", "9, 2, , 3", "line 14: `` is no number of a node"),
-            ("TYPE=S3,", "TYPE=S8R,", "line 13: elements of the type `S8R`; it has nodes on its sides"),
-            ("TYPE=S3,", "TYPE=STRI65,", "line 13: elements of the type `STRI65`"),
+            ("TYPE=S3,", "TYPE=S8R,", "line 14: element 9 has 3 nodes, S8R has 8"),
+            ("TYPE=S3,", "TYPE=B32,", "line 13: elements of the type `B32`"),
             ("TYPE=S3,", "TYPE=C3D5,", "line 13: elements of the type `C3D5`; mesh with C3D4"),
             ("*BOUNDARY", "*INCLUDE, INPUT=a.inp", "line 36: *INCLUDE of another file; insert the text"),
             ("*NODE, NSET=all", "*NODE, INPUT=a.inp", "line 4: *NODE of another file"),

@@ -25,38 +25,43 @@ const OTHER_QUADRILATERALS: [&str; 9] =
     ["CPS4", "CPS4R", "CPS4I", "CPE4", "CPE4R", "CPE4I", "R3D4", "SFM3D4", "SFM3D4R"];
 /// Beginnings of the names of types without a shape.
 const WITHOUT_SHAPE: [&str; 8] = ["MASS", "ROTARYI", "SPRING", "DASHPOT", "CONN", "GAP", "DCOUP", "HEATCAP"];
-const OF_SECOND_ORDER: [&str; 12] =
-    ["STRI65", "S6", "S8", "S8R", "S8R5", "S9R5", "M3D6", "M3D8", "M3D8R", "CPS6", "CPS8", "CPS8R"];
+const TRIANGLES_6: [&str; 3] = ["STRI65", "S6", "M3D6"];
+const QUADRILATERALS_8: [&str; 5] = ["S8", "S8R", "S8R5", "M3D8", "M3D8R"];
+const OTHER_TRIANGLES_6: [&str; 3] = ["CPS6", "CPE6", "SFM3D6"];
+const OTHER_QUADRILATERALS_8: [&str; 6] = ["CPS8", "CPS8R", "CPE8", "CPE8R", "SFM3D8", "SFM3D8R"];
 
 /// What is done with a type, in upper case.
 pub(crate) fn treatment(name: &str) -> Treatment {
     use Treatment::{LeaveOut, Read, ReadAs, Reject};
-    let read: [(&[&str], MeshShape); 3] = [
+    let read: [(&[&str], MeshShape); 7] = [
         (&TRIANGLES, MeshShape::Triangle3),
         (&QUADRILATERALS, MeshShape::Quadrilateral4),
         (&LINES, MeshShape::Line2),
+        (&["T3D3"], MeshShape::Line3),
+        (&TRIANGLES_6, MeshShape::Triangle6),
+        (&QUADRILATERALS_8, MeshShape::Quadrilateral8),
+        (&["S9R5"], MeshShape::Quadrilateral9),
     ];
     let solids = SOLID_KINDS.iter().flat_map(|kind| kind.abaqus.into_iter().zip(kind.shapes));
     if let Some((_, shape)) = read.into_iter().chain(solids).find(|(names, _)| names.contains(&name)) {
         return Read(shape);
     }
-    if OTHER_TRIANGLES.contains(&name) {
-        return ReadAs(MeshShape::Triangle3, "triangles of a surface");
-    }
-    if OTHER_QUADRILATERALS.contains(&name) {
-        return ReadAs(MeshShape::Quadrilateral4, "quadrilaterals of a surface");
+    let others: [(&[&str], MeshShape, &'static str); 4] = [
+        (&OTHER_TRIANGLES, MeshShape::Triangle3, "triangles of a surface"),
+        (&OTHER_TRIANGLES_6, MeshShape::Triangle6, "triangles of a surface"),
+        (&OTHER_QUADRILATERALS, MeshShape::Quadrilateral4, "quadrilaterals of a surface"),
+        (&OTHER_QUADRILATERALS_8, MeshShape::Quadrilateral8, "quadrilaterals of a surface"),
+    ];
+    if let Some((_, shape, what)) = others.into_iter().find(|(names, ..)| names.contains(&name)) {
+        return ReadAs(shape, what);
     }
     if WITHOUT_SHAPE.iter().any(|start| name.starts_with(start)) {
         return LeaveOut;
     }
-    if OF_SECOND_ORDER.contains(&name) {
-        // Its corners alone would be another, stiffer model of the same surface.
-        return Reject("it has nodes on its sides: mesh with S3 and S4 instead");
-    }
     if name.starts_with("C3D") {
         return Reject("mesh with C3D4, C3D10, C3D6, C3D15, C3D8 or C3D20 instead");
     }
-    Reject("remove these elements, or mesh with S3, S4, C3D4, C3D10, C3D6, C3D15, C3D8 or C3D20")
+    Reject("remove these elements, or mesh with S3, S4, S6, S8, C3D4, C3D10, C3D6, C3D15, C3D8 or C3D20")
 }
 
 #[cfg(test)]
@@ -68,9 +73,10 @@ mod tests {
         assert_eq!(treatment("S4R"), Treatment::Read(MeshShape::Quadrilateral4));
         assert_eq!(treatment("C3D10"), Treatment::Read(MeshShape::Tetrahedron10));
         assert_eq!(treatment("B31"), Treatment::Read(MeshShape::Line2));
+        assert_eq!(treatment("S8R"), Treatment::Read(MeshShape::Quadrilateral8));
         assert_eq!(treatment("SPRINGA"), Treatment::LeaveOut);
         assert!(matches!(treatment("CPS3"), Treatment::ReadAs(MeshShape::Triangle3, _)));
-        for name in ["S8R", "STRI65", "C3D5", "U1", ""] {
+        for name in ["B32", "C3D5", "U1", ""] {
             assert!(matches!(treatment(name), Treatment::Reject(_)), "{name}");
         }
     }

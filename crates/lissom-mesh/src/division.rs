@@ -6,17 +6,26 @@ use crate::mesh::{Mesh, MeshElement, MeshShape};
 use crate::vectors::mean;
 
 impl Mesh {
-    /// Divides every triangle into three quadrilaterals, from its centroid to the middles of its sides. If there is
-    /// one, quadrilaterals are divided into four and lines into two, so that neighbours still share their nodes; otherwise
-    /// the mesh remains as it is. Solids are left out with a note.
+    /// Divides every triangle into three quadrilaterals, from its centre to the middles of its sides, and every quadrilateral with
+    /// nodes on its sides into four. If there is one, other quadrilaterals are divided into four and lines into two, so that neighbours
+    /// still share their nodes; otherwise the mesh remains as it is. Solids are left out with a note.
     ///
     /// Parts of an element are in its sets. A new node is in those sets of nodes that contain all ends of its edge, or
     /// all corners of its element. The first part of an element keeps its number; others have numbers above all others.
     pub fn divided_into_quadrilaterals(&self) -> Mesh {
-        if self.elements.iter().all(|element| element.shape != MeshShape::Triangle3) {
+        let is_whole = |own: &MeshElement| !own.shape.is_surface() || own.shape == MeshShape::Quadrilateral4;
+        if self.elements.iter().all(is_whole) {
             return self.clone();
         }
         let mut division = Division::new(self);
+        // Nodes that are on sides already.
+        for element in self.elements.iter().filter(|own| own.shape.dimension() < 3) {
+            let (corners, others) = element.nodes.split_at(element.shape.corner_count());
+            for (side, &middle) in others.iter().take(corners.len()).enumerate() {
+                let [from, to] = [corners[side], corners[(side + 1) % corners.len()]];
+                division.middles.insert([from.min(to), from.max(to)], middle);
+            }
+        }
         for element in &self.elements {
             division.divide(element);
         }
@@ -71,18 +80,21 @@ impl<'a> Division<'a> {
 
     fn divide(&mut self, element: &MeshElement) {
         let start = self.mesh.elements.len();
-        let nodes = element.nodes.as_slice();
-        match element.shape {
-            MeshShape::Line2 => {
+        let (nodes, others) = element.nodes.split_at(element.shape.corner_count());
+        match element.shape.dimension() {
+            1 => {
                 let middle = self.middle([nodes[0], nodes[1]]);
                 self.add(element, start, vec![nodes[0], middle]);
                 self.add(element, start, vec![middle, nodes[1]]);
             }
-            MeshShape::Triangle3 | MeshShape::Quadrilateral4 => {
+            2 => {
                 let count = nodes.len();
                 let middles: Vec<usize> =
                     (0..count).map(|side| self.middle([nodes[side], nodes[(side + 1) % count]])).collect();
-                let centre = self.node_between(nodes);
+                let centre = match others.get(count) {
+                    Some(&centre) => centre,
+                    None => self.centre(nodes, others),
+                };
                 for corner in 0..count {
                     let before = middles[(corner + count - 1) % count];
                     self.add(element, start, vec![nodes[corner], middles[corner], centre, before]);
@@ -91,6 +103,24 @@ impl<'a> Division<'a> {
             _ => {}
         }
         self.children.push(start..self.mesh.elements.len());
+    }
+
+    /// A new node at the centre of a triangle or quadrilateral, where functions of second order are if there are nodes on its sides.
+    fn centre(&mut self, corners: &[usize], middles: &[usize]) -> usize {
+        let centre = self.node_between(corners);
+        if !middles.is_empty() {
+            let [of_corners, of_middles] =
+                if corners.len() == 3 { [-1.0 / 9.0, 4.0 / 9.0] } else { [-0.25, 0.5] };
+            let weighted = corners
+                .iter()
+                .map(|own| (own, of_corners))
+                .chain(middles.iter().map(|own| (own, of_middles)));
+            let sum = |axis: usize| {
+                weighted.clone().map(|(&own, weight)| weight * self.mesh.positions[own][axis]).sum()
+            };
+            self.mesh.positions[centre] = [sum(0), sum(1), sum(2)];
+        }
+        centre
     }
 
     /// Adds a part of an element whose first part has the index `start`.

@@ -16,7 +16,7 @@ impl Edge {}
 
 /// Pairs of nodes around a triangle or quadrilateral; none of other shapes.
 pub(crate) fn sides(element: &MeshElement) -> impl Iterator<Item = [usize; 2]> {
-    let nodes = if element.shape.is_surface() { element.nodes.as_slice() } else { &[] };
+    let nodes = if element.shape.has_corners_only() { element.nodes.as_slice() } else { &[] };
     nodes.iter().enumerate().map(|(index, &node)| [node, nodes[(index + 1) % nodes.len()]])
 }
 

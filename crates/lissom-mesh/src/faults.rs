@@ -22,7 +22,7 @@ const SLENDER: f64 = 20.0;
 const WARPED: f64 = 15.0;
 
 impl Mesh {
-    /// Faults of the triangles and quadrilaterals, errors first. Other elements only count as users of nodes.
+    /// Faults of the triangles and quadrilaterals without nodes on their sides, errors first. Other elements only count as users of nodes.
     pub fn surface_faults(&self) -> Vec<MeshFault> {
         let mut faults = Vec::new();
         self.faults_of_elements(&mut faults);
@@ -48,7 +48,7 @@ impl Mesh {
     fn faults_of_elements(&self, faults: &mut Vec<MeshFault>) {
         let mut known: HashMap<Vec<usize>, usize> = HashMap::new();
         for (index, element) in self.elements.iter().enumerate() {
-            if !element.shape.is_surface() {
+            if !element.shape.has_corners_only() {
                 continue;
             }
             let mut ascending = element.nodes.clone();

@@ -14,7 +14,7 @@ pub(crate) struct ElementType {
 
 /// The type of a number; `None` for those of third and higher order.
 pub(crate) fn element_type(number: u64) -> Option<ElementType> {
-    use MeshShape::{Line2, Quadrilateral4, Triangle3};
+    use MeshShape::{Line2, Line3, Quadrilateral4, Quadrilateral8, Quadrilateral9, Triangle3, Triangle6};
     let (name, dimension, node_count, surface) = match number {
         1 => ("line", 1, 2, Some(Line2)),
         2 => ("triangle", 2, 3, Some(Triangle3)),
@@ -23,15 +23,15 @@ pub(crate) fn element_type(number: u64) -> Option<ElementType> {
         5 => ("hexahedron", 3, 8, None),
         6 => ("prism", 3, 6, None),
         7 => ("pyramid", 3, 5, None),
-        8 => ("line of 3 nodes", 1, 3, None),
-        9 => ("triangle of 6 nodes", 2, 6, None),
-        10 => ("quadrilateral of 9 nodes", 2, 9, None),
+        8 => ("line of 3 nodes", 1, 3, Some(Line3)),
+        9 => ("triangle of 6 nodes", 2, 6, Some(Triangle6)),
+        10 => ("quadrilateral of 9 nodes", 2, 9, Some(Quadrilateral9)),
         11 => ("tetrahedron of 10 nodes", 3, 10, None),
         12 => ("hexahedron of 27 nodes", 3, 27, None),
         13 => ("prism of 18 nodes", 3, 18, None),
         14 => ("pyramid of 14 nodes", 3, 14, None),
         15 => ("point", 0, 1, None),
-        16 => ("quadrilateral of 8 nodes", 2, 8, None),
+        16 => ("quadrilateral of 8 nodes", 2, 8, Some(Quadrilateral8)),
         17 => ("hexahedron of 20 nodes", 3, 20, None),
         18 => ("prism of 15 nodes", 3, 15, None),
         19 => ("pyramid of 13 nodes", 3, 13, None),

@@ -41,10 +41,18 @@ pub struct MeshElement {
 pub enum MeshShape {
     /// Two nodes.
     Line2,
+    /// Two ends, then the middle.
+    Line3,
     /// Three nodes, around the normal.
     Triangle3,
+    /// Three corners, then the middles of the sides 12, 23, 31.
+    Triangle6,
     /// Four nodes, around the normal.
     Quadrilateral4,
+    /// Four corners, then the middles of the sides 12, 23, 34, 41.
+    Quadrilateral8,
+    /// The same, then the node at the centre.
+    Quadrilateral9,
     /// Three nodes of a face, and the one opposite.
     Tetrahedron4,
     /// Four corners, then the middles of the edges 12, 23, 31, 14, 24, 34.
@@ -65,8 +73,20 @@ impl MeshShape {
         match (self, self.solid_kind()) {
             (_, Some((kind, true))) => kind.node_count(),
             (_, Some((kind, false))) => kind.corners.len(),
-            (Self::Line2, _) => 2,
-            (Self::Triangle3, _) => 3,
+            (Self::Line3, _) => 3,
+            (Self::Triangle6, _) => 6,
+            (Self::Quadrilateral8, _) => 8,
+            (Self::Quadrilateral9, _) => 9,
+            _ => self.corner_count(),
+        }
+    }
+
+    /// Number of corners, which are its first nodes.
+    pub fn corner_count(self) -> usize {
+        match (self, self.solid_kind()) {
+            (_, Some((kind, _))) => kind.corners.len(),
+            (Self::Line2 | Self::Line3, _) => 2,
+            (Self::Triangle3 | Self::Triangle6, _) => 3,
             _ => 4,
         }
     }
@@ -74,15 +94,20 @@ impl MeshShape {
     /// Number of dimensions: 1 for lines, 2 for surfaces, 3 for solids.
     pub fn dimension(self) -> u8 {
         match self {
-            Self::Line2 => 1,
-            Self::Triangle3 | Self::Quadrilateral4 => 2,
-            _ => 3,
+            Self::Line2 | Self::Line3 => 1,
+            _ if self.solid_kind().is_some() => 3,
+            _ => 2,
         }
     }
 
     /// Whether it is a triangle or quadrilateral.
     pub fn is_surface(self) -> bool {
         self.dimension() == 2
+    }
+
+    /// Whether it is one without nodes on its sides.
+    pub(crate) fn has_corners_only(self) -> bool {
+        self.is_surface() && self.node_count() == self.corner_count()
     }
 }
 
@@ -114,6 +139,11 @@ impl Mesh {
     /// Area of the triangles and quadrilaterals.
     pub fn area(&self) -> f64 {
         self.elements.iter().map(|element| length(self.area_vector(element))).sum()
+    }
+
+    /// Whether a triangle or quadrilateral has nodes on its sides.
+    pub fn has_nodes_on_sides(&self) -> bool {
+        self.elements.iter().any(|own| own.shape.is_surface() && !own.shape.has_corners_only())
     }
 
     /// Diagonal of the box around all nodes.

@@ -17,7 +17,7 @@ fn edge<T: Ord + Copy>([a, b]: [T; 2]) -> [T; 2] {
 
 /// Pairs of corners of an element.
 fn edges(element: &MeshElement) -> Vec<[usize; 2]> {
-    let count = element.nodes.len();
+    let count = element.shape.corner_count();
     let around = || (0..count).map(|i| [i, (i + 1) % count]).collect();
     element.shape.solid_kind().map_or_else(around, |(kind, _)| kind.edges.to_vec())
 }

@@ -331,6 +331,9 @@ fn mesh(reader: &Reader<'_, '_>) -> Option<(MeshedPart, Option<Layer>)> {
     let scale = reader.number("scale")?.value;
     // Other lengths than metres mean other units of its material.
     let layer = layer_of_file(&mesh, node.span).filter(|_| scale == 1.0);
+    if mesh.has_nodes_on_sides() {
+        mesh = mesh.divided_into_quadrilaterals();
+    }
     mesh.orient();
     let joins = reader.flag("join")?.value;
     let faults = mesh.surface_faults();

@@ -26,7 +26,7 @@ const INSTANTS: u32 = 16;
 
 /// Name of a node: its place, or its number in a mesh from a file.
 pub(super) fn node_name(part: &str, mesh: &MeshedPart, node: usize) -> String {
-    let Some(place) = mesh.place(node) else { return format!("{part}.{}", node + 1) };
+    let Some(place) = mesh.place(node) else { return format!("{part}@{}", node + 1) };
     let place: Vec<String> = place.iter().map(|value| format!("{value:.4}")).collect();
     format!("{part}@{}", place.join(","))
 }

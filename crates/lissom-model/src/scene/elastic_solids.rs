@@ -27,6 +27,9 @@ pub struct ElasticSolid {
     /// Nodes of each element among its nodes, in the order of Abaqus, by the name of the element's kind.
     #[serde(default)]
     pub cells: BTreeMap<String, Vec<Vec<usize>>>,
+    /// Number of elements.
+    #[serde(default)]
+    pub element_count: usize,
     /// Its surface as it is drawn: corners of quadrilaterals among its nodes, counterclockwise seen from outside; triangles have the last
     /// corner twice.
     pub elements: Vec<[usize; 4]>,
@@ -95,6 +98,7 @@ pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<El
             name: solid.name.value.clone(),
             nodes: built.nodes.nodes.clone(),
             positions: solid.mesh.positions.iter().map(|position| (*position).into()).collect(),
+            element_count: solid.mesh.elements.len(),
             cells: SOLID_KINDS
                 .iter()
                 .map(|kind| (kind.word.to_owned(), cells(&solid.mesh, kind.shapes[1])))

@@ -66,8 +66,8 @@ class Shell(Entry):
         plies: layers of a laminate from the bottom to the top of the normal; a list of layers, or nothing.
         direction: projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh; a direction, or nothing.
         fold_angle: largest angle between elements of a mesh that count as one smooth surface; default 0.52 [rad]; a number from 0 to 3.2, or nothing.
-        pressure: force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
-        pressure_on_top: force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v and t [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
+        pressure: force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v, t and the present place x, y, z [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
+        pressure_on_top: force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v, t and the present place x, y, z [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
         force_per_area: in global axes, fixed in direction: three numbers or expressions of u, v and t [Pa]; three expressions of `u`, `v` and `t`, or nothing.
         sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
     """
@@ -111,7 +111,8 @@ class Solid(Entry):
         join: whether nodes at the same position are one, as along the seam of a ring; default `false`; `true` or `false`, or nothing.
         material: the material; the name of an entry of `[materials]`.
         model: law of elasticity: for small strains, or for rubber; default `"st-venant-kirchhoff"`; `"st-venant-kirchhoff"`, `"neo-hookean"`, or nothing.
-        pressure: force per area against the outward normal, which it follows: `{ SET = expression of t }` [Pa]; a table, or nothing.
+        damping: damping in proportion to the stiffness; default 0 [s]; a number ≥ 0, or nothing.
+        pressure: force per area against the outward normal, which it follows: `{ SET = expression }` of t and of the present place x, y, z [Pa]; a table, or nothing.
         sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
     """
 
@@ -128,6 +129,7 @@ class Solid(Entry):
     join: bool | None = None
     material: str
     model: Literal["st-venant-kirchhoff", "neo-hookean"] | None = None
+    damping: Number | None = None
     pressure: Table | None = None
     sets: Table | None = None
 

@@ -63,15 +63,13 @@ entry! {
     material: MaterialId = "material";
     /// Place of the middle of the thickness along the normal of the surface; default 0 \[m\].
     offset: f64 = "offset";
-    /// Damping in proportion to the stiffness; default 0 \[s\].
-    damping: f64 = "damping";
     /// Projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh.
     direction: [f64; 3] = "direction";
     /// Largest angle between elements of a mesh that count as one smooth surface; default 0.52 \[rad\].
     fold_angle: f64 = "fold_angle";
-    /// Force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v and t \[Pa\].
+    /// Force per area along the normal, which it follows, as on the face opposite to it: an expression of u, v, t and the present place x, y, z \[Pa\].
     pressure: Expression = "pressure";
-    /// Force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v and t \[Pa\].
+    /// Force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v, t and the present place x, y, z \[Pa\].
     pressure_on_top: Expression = "pressure_on_top";
     /// In global axes, fixed in direction: three numbers or expressions of u, v and t \[Pa\].
     force_per_area: [Expression; 3] = "force_per_area";
@@ -190,4 +188,6 @@ keys! {
     [Shell, ElasticSolid]
     /// Of a mesh: factor to metres; default 1.
     scale: f64 = "scale";
+    /// Damping in proportion to the stiffness; default 0 \[s\].
+    damping: f64 = "damping";
 }

@@ -37,11 +37,12 @@ impl SolidCells {
                 }
                 continue;
             };
-            for (own, at_nodes) in values.iter_mut().zip([elements.von_mises(&at), elements.energy(&at)]) {
+            let numbers = elements.numbers(&at);
+            for (k, own) in values.iter_mut().enumerate() {
                 let mean = |face: &[usize; 4]| {
                     // The last corner of a triangle stands twice.
                     let corners = if face[2] == face[3] { &face[..3] } else { &face[..] };
-                    corners.iter().map(|&node| at_nodes[node]).sum::<f64>() / corners.len() as f64
+                    corners.iter().map(|&node| numbers[node][k]).sum::<f64>() / corners.len() as f64
                 };
                 own.extend(solid.elements.iter().map(|face| mean(face) as f32));
             }

@@ -28,8 +28,8 @@ impl SolidElements {
         Self { elements: cells.filter_map(built).collect(), count: solid.nodes.len() }
     }
 
-    /// Means at the nodes by the volumes of their elements: of the stresses and of the strain energy per volume.
-    fn means(&self, at: &Kinematics) -> Vec<(CauchyStress, f64)> {
+    /// Von Mises stress [Pa] and strain energy per volume [J/m³] at each node: of means over its elements by their volumes.
+    pub fn numbers(&self, at: &Kinematics) -> Vec<[f64; 2]> {
         let mut sums = vec![(CauchyStress::zeros(), 0.0, 0.0); self.count];
         for (nodes, own) in &self.elements {
             let (volume, energy) = (own.volume(), own.strain(at));
@@ -38,16 +38,8 @@ impl SolidElements {
                 *sum = (sum.0 + volume * stress, sum.1 + energy, sum.2 + volume);
             });
         }
-        sums.into_iter().map(|(stress, energy, volume)| (stress / volume, energy / volume)).collect()
-    }
-
-    /// Von Mises stress at each node [Pa].
-    pub fn von_mises(&self, at: &Kinematics) -> Vec<f64> {
-        self.means(at).iter().map(|(stress, _)| von_mises(stress)).collect()
-    }
-
-    /// Strain energy per volume at each node [J/m³].
-    pub fn energy(&self, at: &Kinematics) -> Vec<f64> {
-        self.means(at).iter().map(|(_, energy)| *energy).collect()
+        sums.iter()
+            .map(|(stress, energy, volume)| [von_mises(&(stress / *volume)), energy / volume])
+            .collect()
     }
 }

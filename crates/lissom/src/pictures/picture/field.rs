@@ -125,8 +125,8 @@ impl ShellField {
         };
         let values = match self.field {
             Field::Displacement => solid.nodes.iter().zip(&solid.positions).map(shift).collect(),
-            Field::Stress => elements.von_mises(at),
-            Field::EnergyPerVolume => elements.energy(at),
+            Field::Stress => elements.numbers(at).iter().map(|[stress, _]| *stress).collect(),
+            Field::EnergyPerVolume => elements.numbers(at).iter().map(|[_, energy]| *energy).collect(),
             _ => return None,
         };
         Some(Part::Solid(solid, values))

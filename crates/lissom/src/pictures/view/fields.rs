@@ -92,11 +92,11 @@ fn of_solid(solid: &ElasticSolid) -> (PartField, usize, Evaluate<'_>) {
     let surface: BTreeSet<usize> = solid.elements.iter().flatten().copied().collect();
     let field = PartField::new(SOLID_KINDS, surface.len(), Vec::new());
     let evaluate = move |at: &Kinematics| {
-        let (stresses, energies) = (elements.von_mises(at), elements.energy(at));
-        let numbers = |&node: &usize| [stresses[node], energies[node].max(0.0).sqrt()];
+        let all = elements.numbers(at);
+        let numbers = |&node: &usize| [all[node][0], all[node][1].max(0.0).sqrt()];
         surface.iter().flat_map(numbers).map(|number| number as f32).collect()
     };
-    let work = field.count + SOLID_WORK * (solid.tetrahedra.len() + solid.hexahedra.len());
+    let work = field.count + SOLID_WORK * solid.cells.values().map(Vec::len).sum::<usize>();
     (field, work, Box::new(evaluate))
 }
 

@@ -25,7 +25,7 @@ const MAX_NUMBERS: usize = 1_500_000;
 /// Maximum number of values of the fields in a page; longer motions have them in fewer frames.
 const MAX_FIELDS: usize = 8_000_000;
 /// What shells and solids have in a scene for their fields alone, which a page has from here.
-const ONLY_FOR_FIELDS: [&str; 5] = ["axes", "directions", "stiffness", "tetrahedra", "hexahedra"];
+const ONLY_FOR_FIELDS: [&str; 4] = ["axes", "directions", "stiffness", "cells"];
 
 /// A note for the reader of a page about the results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
