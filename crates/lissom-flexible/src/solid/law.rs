@@ -1,11 +1,13 @@
 //! Elastic laws of solids.
 //!
-//! Legend: F deformation gradient, J its determinant, E Green-Lagrange strain, I₁ = F:F, μ shear modulus, λ Lamé's first constant,
-//! K bulk modulus, K₀ its part at points, V volume of an element, V₀ that at rest.
+//! Legend: F deformation gradient, J its determinant, E Green-Lagrange strain, I₁ = F:F, I₂ = (I₁² - FᵀF:FᵀF)/2, μ shear modulus, μ₂ its
+//! part in Mooney-Rivlin's second term, otherwise 0, λ Lamé's first constant, K bulk modulus, K₀ its part at points, V volume of an element,
+//! V₀ that at rest.
 //!
 //! ```text
 //! St. Venant-Kirchhoff   W = λ/2 (tr E)² + μ E:E
-//! neo-Hookean            W = μ/2 (I₁ J^(-2/3) - 3) + K₀/2 (J - 1)²,      and of an element  V₀ (K - K₀)/2 (V/V₀ - 1)²
+//! rubber                 W = (μ - μ₂)/2 (I₁ J^(-2/3) - 3) + μ₂/2 (I₂ J^(-4/3) - 3) + K₀/2 (J - 1)²,
+//!                        and of an element  V₀ (K - K₀)/2 (V/V₀ - 1)²
 //! ```
 //!
 //! K₀ = min(K, 14/3 μ), which is the bulk modulus at ν = 0.4. The rest acts on the mean dilatation, one equation per element, so that
@@ -22,7 +24,7 @@ pub enum SolidModel {
     /// Stress is proportional to the Green-Lagrange strain: for small strains.
     StVenantKirchhoff,
     /// Rubber: also large strains, and almost incompressible.
-    NeoHookean,
+    Rubber,
 }
 
 /// An elastic law.
@@ -34,19 +36,22 @@ pub struct SolidLaw {
     pub shear: f64,
     /// Bulk modulus [Pa].
     pub bulk: f64,
+    /// Part of the shear modulus of rubber in the second term, twice the second constant of Mooney and Rivlin [Pa].
+    pub second: f64,
 }
 
 impl SolidLaw {
     /// The law with Young's modulus [Pa] and Poisson's ratio at small strains.
     pub fn new(model: SolidModel, young: f64, poisson: f64) -> Self {
-        Self { model, shear: 0.5 * young / (1.0 + poisson), bulk: young / (3.0 - 6.0 * poisson) }
+        let (shear, bulk) = (0.5 * young / (1.0 + poisson), young / (3.0 - 6.0 * poisson));
+        Self { model, shear, bulk, second: 0.0 }
     }
 
     /// Bulk modulus of the dilatation at a point [Pa].
     fn bulk_at_point(&self) -> f64 {
         match self.model {
             SolidModel::StVenantKirchhoff => self.bulk,
-            SolidModel::NeoHookean => self.bulk.min(14.0 / 3.0 * self.shear),
+            SolidModel::Rubber => self.bulk.min(14.0 / 3.0 * self.shear),
         }
     }
 
@@ -62,12 +67,17 @@ impl SolidLaw {
                 let strain = at.strain();
                 0.5 * strain.dot(&self.second_stress(&strain))
             }
-            SolidModel::NeoHookean => {
+            SolidModel::Rubber => {
                 // (I₁ J^(-2/3) - 3) of small strains without loss of digits.
                 let exponent = -2.0 / 3.0 * at.dilatation().ln_1p();
                 let first = 2.0 * at.displacement.trace() + at.displacement.norm_squared();
                 let distortion = 3.0 * exponent.exp_m1() + first * exponent.exp();
-                0.5 * (self.shear * distortion + self.bulk_at_point() * at.dilatation().powi(2))
+                let first = (self.shear - self.second) * distortion;
+                let strain = at.strain();
+                let trace = strain.trace();
+                let invariant = 4.0 * trace + 2.0 * (trace * trace - strain.norm_squared());
+                let second = 3.0 * (2.0 * exponent).exp_m1() + invariant * (2.0 * exponent).exp();
+                0.5 * (first + self.second * second + self.bulk_at_point() * at.dilatation().powi(2))
             }
         }
     }
@@ -88,13 +98,39 @@ impl SolidLaw {
     pub(super) fn first_stress(&self, at: &Deformation, mean: f64) -> Matrix3 {
         match self.model {
             SolidModel::StVenantKirchhoff => at.gradient * self.second_stress(&at.strain()),
-            SolidModel::NeoHookean => {
-                let factor = self.shear * at.determinant.powf(-2.0 / 3.0);
+            SolidModel::Rubber => {
+                let factor = (self.shear - self.second) * at.determinant.powf(-2.0 / 3.0);
                 let third = at.gradient.norm_squared() / 3.0;
                 let pressure = (self.bulk_at_point() * at.dilatation() + mean) * at.determinant;
-                factor * at.gradient + (pressure - factor * third) * at.inverse_transpose
+                let first = factor * at.gradient + (pressure - factor * third) * at.inverse_transpose;
+                if self.second == 0.0 { first } else { first + self.second_term(at).1 }
             }
         }
+    }
+
+    /// I₂ and the stress of the second term, μ₂ J^(-4/3) (I₁ F - F Fᵀ F - 2/3 I₂ F⁻ᵀ).
+    fn second_term(&self, at: &Deformation) -> (f64, Matrix3) {
+        let right = at.gradient.tr_mul(&at.gradient);
+        let first = right.trace();
+        let second = 0.5 * (first * first - right.norm_squared());
+        let slope = first * at.gradient - at.gradient * right;
+        let factor = self.second * at.determinant.powf(-4.0 / 3.0);
+        (second, factor * (slope - 2.0 / 3.0 * second * at.inverse_transpose))
+    }
+
+    /// Change of the second term by a change of the gradient.
+    fn second_change(&self, at: &Deformation, change: &Matrix3) -> Matrix3 {
+        let (f, q) = (&at.gradient, &at.inverse_transpose);
+        let (second, stress) = self.second_term(at);
+        let right = f.tr_mul(f);
+        let first = right.trace();
+        let share = q.dot(change);
+        let slope = first * f - f * right;
+        let turned = q * change.tr_mul(q);
+        let cubic = change * right + f * change.tr_mul(f) + f * f.tr_mul(change);
+        let own = 2.0 * f.dot(change) * f + first * change - cubic - 4.0 / 3.0 * slope.dot(change) * q
+            + 2.0 / 3.0 * second * turned;
+        self.second * at.determinant.powf(-4.0 / 3.0) * own - 4.0 / 3.0 * share * stress
     }
 
     /// Change of the first Piola-Kirchhoff stress by a change of the gradient e_k ⊗ `slope`, at a constant pressure of the mean
@@ -116,13 +152,13 @@ impl SolidLaw {
                 }
                 change
             }
-            SolidModel::NeoHookean => {
+            SolidModel::Rubber => {
                 let (q, j) = (&at.inverse_transpose, at.determinant);
                 let along = q * slope;
                 let share = along[k];
                 // -δF⁻ᵀ
                 let turned = along * q.row(k);
-                let factor = self.shear * j.powf(-2.0 / 3.0);
+                let factor = (self.shear - self.second) * j.powf(-2.0 / 3.0);
                 let third = at.gradient.norm_squared() / 3.0;
                 let bulk = self.bulk_at_point();
                 let pressure = (bulk * at.dilatation() + mean) * j;
@@ -134,6 +170,9 @@ impl SolidLaw {
                     + (factor * third - pressure) * turned;
                 for column in 0..3 {
                     change[(k, column)] += factor * slope[column];
+                }
+                if self.second != 0.0 {
+                    change += self.second_change(at, &(Vector3::ith(k, 1.0) * slope.transpose()));
                 }
                 change
             }

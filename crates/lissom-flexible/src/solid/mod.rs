@@ -147,7 +147,7 @@ impl<const NODES: usize, const POINTS: usize> Element for Solid<NODES, POINTS> {
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         match self.law.model {
             SolidModel::StVenantKirchhoff => self.add_forces_of_strains(step, out),
-            SolidModel::NeoHookean => self.add_forces_of_energy(step, out),
+            SolidModel::Rubber => self.add_forces_of_energy(step, out),
         }
     }
 

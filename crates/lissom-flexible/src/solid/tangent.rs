@@ -79,7 +79,7 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         points: &[Deformation; POINTS],
         stressed: Stressed<'_>,
     ) -> [Matrix3; POINTS] {
-        if self.law.model == SolidModel::NeoHookean {
+        if self.law.model == SolidModel::Rubber {
             return [Matrix3::zeros(); POINTS];
         }
         let from = self.deformed(stressed.previous.unwrap_or(stressed.at)).points;

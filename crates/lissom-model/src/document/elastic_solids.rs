@@ -98,11 +98,17 @@ pub(super) fn keys() -> Vec<Key> {
         required("material", Shape::Name("materials"), "", "the material"),
         optional(
             "model",
-            Shape::Choice(["st-venant-kirchhoff", "neo-hookean"].as_slice().into()),
+            Shape::Choice(["st-venant-kirchhoff", "neo-hookean", "mooney-rivlin"].as_slice().into()),
             "",
             "law of elasticity: for small strains, or for rubber",
         )
         .or_word("st-venant-kirchhoff"),
+        optional(
+            "c01",
+            Shape::NotNegative,
+            "Pa",
+            "second constant of `model = \"mooney-rivlin\"`; the first one is E/(4 (1 + nu)) - c01",
+        ),
         optional("damping", Shape::NotNegative, "s", "damping in proportion to the stiffness").or_number(0.0),
         optional(
             "pressure",
@@ -137,9 +143,10 @@ pub(super) fn elastic_solids(context: &Context<'_>, materials: &[Material]) -> V
 fn material(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<SolidMaterial> {
     let name = reader.name_in("material")?;
     let material = materials.iter().find(|known| known.name.value == name.value)?.constants;
-    let is_rubber = reader.choice("model")?.value == "neo-hookean";
+    let chosen = reader.choice("model")?.value;
+    let is_rubber = chosen != "st-venant-kirchhoff";
     let (model, most) = if is_rubber {
-        (SolidModel::NeoHookean, MAX_POISSON_OF_RUBBER)
+        (SolidModel::Rubber, MAX_POISSON_OF_RUBBER)
     } else {
         (SolidModel::StVenantKirchhoff, MAX_POISSON)
     };
@@ -154,7 +161,32 @@ fn material(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<SolidMate
         };
         return reader.context.fail(name.span, message, help);
     }
-    let law = SolidLaw::new(model, material.young, poisson);
+    let mut law = SolidLaw::new(model, material.young, poisson);
+    let second = reader.node("c01").map(|node| Some((node.span, reader.number("c01")?.value)));
+    match (chosen == "mooney-rivlin", second) {
+        (true, Some(own)) => {
+            let (span, constant) = own?;
+            law.second = 2.0 * constant;
+            if law.second >= law.shear {
+                let most = 0.5 * law.shear;
+                let message =
+                    format!("`c01` of {} must be below E/(4 (1 + nu)) = {most:.4e} Pa", reader.what);
+                let help = "the first constant, which is the rest, must be greater than zero";
+                return reader.context.fail(span, message, help);
+            }
+        }
+        (true, None) => {
+            let message = format!("{} lacks `c01`", reader.what);
+            let help =
+                "add `c01 = …` in Pa, the second constant; E of the material is 4 (1 + nu) (C10 + c01)";
+            return reader.context.fail(reader.name, message, help);
+        }
+        (false, Some(own)) => {
+            let message = format!("{} has `c01`, which only `model = \"mooney-rivlin\"` uses", reader.what);
+            return reader.context.fail(own?.0, message, "remove it, or choose this model");
+        }
+        (false, None) => {}
+    }
     Some(SolidMaterial { law, density: material.density, damping: reader.number("damping")?.value })
 }
 

@@ -35,12 +35,15 @@ pub struct ElasticSolid {
     pub elements: Vec<[usize; 4]>,
     /// Normal of the smooth surface at each corner, in the stress-free state.
     pub directors: Vec<[[f64; 3]; 4]>,
-    /// Whether its law is neo-Hookean, otherwise of St. Venant and Kirchhoff.
+    /// Whether its law is that of rubber, otherwise of St. Venant and Kirchhoff.
     pub is_neo_hookean: bool,
     /// Shear modulus [Pa].
     pub shear: f64,
     /// Bulk modulus [Pa].
     pub bulk: f64,
+    /// Part of the shear modulus in the second term of rubber [Pa].
+    #[serde(default)]
+    pub second: f64,
     /// Volume in the stress-free state [m³].
     pub volume: f64,
     /// Mass [kg].
@@ -106,9 +109,10 @@ pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<El
                 .collect(),
             directors: directors(&solid.mesh.positions, &elements),
             elements,
-            is_neo_hookean: solid.material.law.model == SolidModel::NeoHookean,
+            is_neo_hookean: solid.material.law.model == SolidModel::Rubber,
             shear: solid.material.law.shear,
             bulk: solid.material.law.bulk,
+            second: solid.material.law.second,
             volume,
             mass: solid.material.density * volume,
         })

@@ -1,10 +1,12 @@
 //! Elastic solids in models: against closed forms, with every scheme, and what their messages say.
 
 mod contacts;
+mod damping;
 mod dynamics;
 mod examples;
 mod meshes;
 mod messages;
+mod pressure;
 mod statics;
 
 /// A block of 2 x 1 x 1 m, held by planes of symmetry, that is pulled along x with `force` [N].

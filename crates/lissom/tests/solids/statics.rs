@@ -42,6 +42,19 @@ fn rubber_has_the_stress_of_its_law() {
     assert!((stretch * across * across - 1.0).abs() < 1e-3, "{across}");
 }
 
+/// P = 2 (C10 + c01/λ)(λ - λ⁻²) where rubber does not change its volume.
+#[test]
+fn the_second_constant_of_mooney_and_rivlin_softens_tension() {
+    let text = BLOCK
+        .replace("material = \"soft\"", "material = \"soft\"\nmodel = \"mooney-rivlin\"\nC01 = 5e4")
+        .replace("nu = 0.3", "nu = 0.4999");
+    let record = run(&text.replace("[1e5, 0, 0]", "[3e5, 0, 0]"), &[]);
+    let stretch = 1.0 + last(&record, "end", "u1") / 2.0;
+    let first = 1e6 / (4.0 * 1.4999) - 5e4;
+    let law = 2.0 * (first + 5e4 / stretch) * (stretch - 1.0 / (stretch * stretch));
+    assert!(stretch > 1.4 && (law / 3e5 - 1.0).abs() < 1e-3, "{stretch}, {law}");
+}
+
 /// A pressure on three sides follows their areas: the block shrinks equally by a pressure K (1 - J) of the law of volumes.
 #[test]
 fn pressure_acts_on_the_present_area() {
@@ -217,4 +230,29 @@ fn pressure_on_a_shell_and_a_solid_has_one_sign() {
         let found = last(&record, "o", "u3");
         assert!((found / expected - 1.0).abs() < 0.02, "{found}, {expected}");
     }
+}
+
+/// A bar of rubber that is twisted by half a turn: few steps however small its compressibility is, and the same moment.
+#[test]
+fn nearly_incompressible_rubber_takes_few_steps() {
+    let bar = |poisson: &str| {
+        format!(
+            "lissom = 1\n[materials.rubber]\nE = 5e6\nnu = {poisson}\ndensity = 1000\n[solids.bar]\nsize = [1, 1, 6]\n\
+             origin = [-0.5, -0.5, 0]\ndivisions = [2, 2, 6]\nmaterial = \"rubber\"\nmodel = \"neo-hookean\"\n\
+             [joints.bottom]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"bar.bottom\"\n\
+             [bodies.cap]\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 6]\n\
+             [joints.glue]\nkind = \"clamp\"\nbase = \"cap\"\ntip = \"bar.top\"\n\
+             [joints.top]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"cap\"\nrz = \"pi*t\"\n\
+             [outputs.bottom]\nkind = \"reaction\"\nof = \"bottom\"\n[analysis]\nkind = \"statics\"\nend = 1\n"
+        )
+    };
+    let moments = ["0.49", "0.4999"].map(|poisson| {
+        let record = run(&bar(poisson), &[]);
+        assert!(record.times.len() < 20, "{poisson}: {} rows", record.times.len());
+        last(&record, "bottom", "m3").abs()
+    });
+    // G J π/l for small angles, J = 0.1406 of a square.
+    let small = 5e6 / (2.0 * 1.4999) * 0.1406 * std::f64::consts::PI / 6.0;
+    assert!((moments[0] / moments[1] - 1.0).abs() < 0.02, "{moments:?}");
+    assert!((0.9..1.2).contains(&(moments[1] / small)), "{moments:?} {small}");
 }

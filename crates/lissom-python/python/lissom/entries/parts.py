@@ -110,7 +110,8 @@ class Solid(Entry):
         scale: of a mesh: factor to metres; default 1; a number > 0, or nothing.
         join: whether nodes at the same position are one, as along the seam of a ring; default `false`; `true` or `false`, or nothing.
         material: the material; the name of an entry of `[materials]`.
-        model: law of elasticity: for small strains, or for rubber; default `"st-venant-kirchhoff"`; `"st-venant-kirchhoff"`, `"neo-hookean"`, or nothing.
+        model: law of elasticity: for small strains, or for rubber; default `"st-venant-kirchhoff"`; `"st-venant-kirchhoff"`, `"neo-hookean"`, `"mooney-rivlin"`, or nothing.
+        c01: second constant of `model = "mooney-rivlin"`; the first one is E/(4 (1 + nu)) - c01 [Pa]; a number ≥ 0, or nothing.
         damping: damping in proportion to the stiffness; default 0 [s]; a number ≥ 0, or nothing.
         pressure: force per area against the outward normal, which it follows: `{ SET = expression }` of t and of the present place x, y, z [Pa]; a table, or nothing.
         sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
@@ -128,7 +129,8 @@ class Solid(Entry):
     scale: Number | None = None
     join: bool | None = None
     material: str
-    model: Literal["st-venant-kirchhoff", "neo-hookean"] | None = None
+    model: Literal["st-venant-kirchhoff", "neo-hookean", "mooney-rivlin"] | None = None
+    c01: Number | None = None
     damping: Number | None = None
     pressure: Table | None = None
     sets: Table | None = None

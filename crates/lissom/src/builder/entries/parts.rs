@@ -99,6 +99,8 @@ entry! {
     join: bool = "join";
     /// Law of elasticity: for small strains, or for rubber; default `"st-venant-kirchhoff"`.
     model: words::Model = "model";
+    /// Second constant of `model = "mooney-rivlin"`; the first one is E/(4 (1 + nu)) - c01 \[Pa\].
+    c01: f64 = "c01";
 }
 
 entry! {

@@ -102,10 +102,11 @@ words! {
 }
 
 words! {
-    /// One of `st-venant-kirchhoff`, `neo-hookean`.
+    /// One of `st-venant-kirchhoff`, `neo-hookean`, `mooney-rivlin`.
     Model;
     StVenantKirchhoff = "st-venant-kirchhoff";
     NeoHookean = "neo-hookean";
+    MooneyRivlin = "mooney-rivlin";
 }
 
 words! {

@@ -17,8 +17,8 @@ pub struct SolidElements {
 impl SolidElements {
     /// Those of a solid.
     pub fn new(solid: &ElasticSolid) -> Self {
-        let model = if solid.is_neo_hookean { SolidModel::NeoHookean } else { SolidModel::StVenantKirchhoff };
-        let law = SolidLaw { model, shear: solid.shear, bulk: solid.bulk };
+        let model = if solid.is_neo_hookean { SolidModel::Rubber } else { SolidModel::StVenantKirchhoff };
+        let law = SolidLaw { model, shear: solid.shear, bulk: solid.bulk, second: solid.second };
         let built = |(kind, nodes): (&String, &Vec<usize>)| {
             let ids: Vec<NodeId> = nodes.iter().map(|&node| solid.nodes[node]).collect();
             let places: Vec<Vector3> = nodes.iter().map(|&node| solid.positions[node].into()).collect();
