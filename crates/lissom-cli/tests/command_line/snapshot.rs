@@ -294,7 +294,7 @@ fn what_cannot_be_drawn_is_refused() {
     let scene = folder.path().join("out/scene.json");
     let text = fs::read_to_string(&scene).unwrap();
     for (damaged, words) in [
-        (text.replace("\"lissom_scene\":2", "\"lissom_scene\":1"), "version 1"),
+        (text.replace("\"lissom_scene\":3", "\"lissom_scene\":1"), "version 1"),
         (text[..text.len() / 2].to_owned(), "does not describe a scene"),
         (text.replace("\"node\":9", "\"node\":90"), "damaged"),
     ] {

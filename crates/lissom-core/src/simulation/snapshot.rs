@@ -24,7 +24,7 @@ use crate::simulation::snapshot_parts::Learned;
 use crate::system::{State, Touch};
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 25;
+const VERSION: u32 = 26;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -178,7 +178,7 @@ fn material(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<SolidMate
         (true, None) => {
             let message = format!("{} lacks `c01`", reader.what);
             let help =
-                "add `c01 = …` in Pa, the second constant; E of the material is 4 (1 + nu) (C10 + c01)";
+                "add `c01 = …` in Pa, the second constant; E of the material is 4 (1 + nu) (c10 + c01)";
             return reader.context.fail(reader.name, message, help);
         }
         (false, Some(own)) => {

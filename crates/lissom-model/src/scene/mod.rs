@@ -42,7 +42,7 @@ pub use symbols::{Rod, Symbol};
 pub use crate::surface::Surface;
 
 /// Version of the format.
-const VERSION: usize = 2;
+const VERSION: usize = 3;
 
 /// A text that is no scene of this version.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

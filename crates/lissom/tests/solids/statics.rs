@@ -42,11 +42,11 @@ fn rubber_has_the_stress_of_its_law() {
     assert!((stretch * across * across - 1.0).abs() < 1e-3, "{across}");
 }
 
-/// P = 2 (C10 + c01/λ)(λ - λ⁻²) where rubber does not change its volume.
+/// P = 2 (c10 + c01/λ)(λ - λ⁻²) where rubber does not change its volume.
 #[test]
 fn the_second_constant_of_mooney_and_rivlin_softens_tension() {
     let text = BLOCK
-        .replace("material = \"soft\"", "material = \"soft\"\nmodel = \"mooney-rivlin\"\nC01 = 5e4")
+        .replace("material = \"soft\"", "material = \"soft\"\nmodel = \"mooney-rivlin\"\nc01 = 5e4")
         .replace("nu = 0.3", "nu = 0.4999");
     let record = run(&text.replace("[1e5, 0, 0]", "[3e5, 0, 0]"), &[]);
     let stretch = 1.0 + last(&record, "end", "u1") / 2.0;
