@@ -73,29 +73,32 @@ impl<const NODES: usize> FacePressure<NODES> {
         self.nodes.map(|node| at.nodes[node].frame.position - origin)
     }
 
-    /// The pressure at a point, with its slope where it depends on the place.
-    fn pressure_at(
+    /// Where a point is [m].
+    fn place(
         &self,
         at: &Kinematics,
         (positions, functions): (&[Vector3; NODES], &Functions<NODES>),
-    ) -> (f64, Option<Vector3>) {
+    ) -> Vector3 {
+        let arm: Vector3 = positions.iter().zip(functions.values).map(|(x, value)| value * x).sum();
+        at.nodes[self.nodes[0]].frame.position + arm
+    }
+
+    /// The pressure that is the same everywhere, or the field.
+    fn uniform(&self, time: f64) -> Result<f64, &dyn PressureField> {
         match &self.pressure {
-            Pressure::Uniform(function) => (function.value(at.time), None),
-            Pressure::Field(field) => {
-                let arm: Vector3 = positions.iter().zip(functions.values).map(|(x, value)| value * x).sum();
-                let place = at.nodes[self.nodes[0]].frame.position + arm;
-                (field.value(at.time, &place), Some(field.slope(at.time, &place)))
-            }
+            Pressure::Uniform(function) => Ok(function.value(time)),
+            Pressure::Field(field) => Err(&**field),
         }
     }
 
     /// Forces that counteract the pressure, global axes [N].
     fn global_forces(&self, at: &Kinematics) -> [Vector3; NODES] {
-        let positions = self.positions(at);
+        let (uniform, positions) = (self.uniform(at.time), self.positions(at));
         let mut forces = [Vector3::zeros(); NODES];
         for (functions, weight) in self.points.iter() {
             let [along, across] = tangents(&positions, functions);
-            let (pressure, _) = self.pressure_at(at, (&positions, functions));
+            let place = || self.place(at, (&positions, functions));
+            let pressure = uniform.unwrap_or_else(|field| field.value(at.time, &place()));
             let force = (weight * pressure) * along.cross(&across);
             forces.iter_mut().zip(functions.values).for_each(|(sum, value)| *sum += value * force);
         }
@@ -118,13 +121,15 @@ impl<const NODES: usize> Element for FacePressure<NODES> {
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let positions = self.positions(at);
+        let (uniform, positions) = (self.uniform(at.time), self.positions(at));
         let rotations = self.nodes.map(|node| at.nodes[node].frame.rotation.matrix());
         for (functions, weight) in self.points.iter() {
             let tangents = tangents(&positions, functions);
             let normal = tangents[0].cross(&tangents[1]);
             let [along, across] = tangents.map(|tangent| skew(&tangent));
-            let (pressure, by_place) = self.pressure_at(at, (&positions, functions));
+            let place = || self.place(at, (&positions, functions));
+            let pressure = uniform.unwrap_or_else(|field| field.value(at.time, &place()));
+            let by_place = uniform.err().map(|field| field.slope(at.time, &place()));
             for (j, slope) in functions.slopes.iter().enumerate() {
                 let mut change: Matrix3 = (weight * pressure) * (slope[1] * along - slope[0] * across);
                 if let Some(by_place) = by_place {

@@ -39,10 +39,8 @@ struct Reader<'a> {
     members: Vec<(Tag, usize)>,
     /// Elements of version 2 by their nodes: it saves an element once for each of its groups.
     known: HashMap<Vec<u64>, usize>,
-    /// Entity, line and nodes of elements that are not read, such as points.
+    /// Entity, line and nodes of points.
     touched: Vec<(Tag, usize, Vec<u64>)>,
-    /// Types of elements that are not read: the first line, number, and dimension.
-    left_out: BTreeMap<&'static str, (usize, usize, u8)>,
     /// Names of other sections, with their lines.
     other_sections: BTreeMap<&'a str, usize>,
 }
@@ -268,10 +266,10 @@ impl<'a> Reader<'a> {
             return Err(MeshError::at(line, found, AGAIN));
         }
         let Some(shape) = kind.shape else {
-            self.touched.push((entity, line, nodes));
             if kind.dimension > 0 {
-                self.left_out.entry(kind.name).or_insert((line, 0, kind.dimension)).1 += 1;
+                return Err(MeshError::at(line, format!("a {}, which is not read", kind.name), LINEAR));
             }
+            self.touched.push((entity, line, nodes));
             return Ok(());
         };
         let nodes = in_order_of_abaqus(shape, &nodes);
@@ -302,14 +300,6 @@ impl<'a> Reader<'a> {
     }
 
     fn finish(mut self) -> Result<Mesh, MeshError> {
-        let highest = self.draft.mesh.elements.iter().map(|element| element.shape.dimension()).max();
-        for (name, &(line, count, dimension)) in &self.left_out {
-            if highest.is_none_or(|highest| dimension >= highest) {
-                return Err(MeshError::at(line, format!("a {name}, which is not read"), LINEAR));
-            }
-            let note = format!("line {line}: a {name} is left out; its nodes are in the sets of nodes");
-            self.draft.mesh.notes.push(with_count(note, count));
-        }
         for (section, line) in &self.other_sections {
             let note = format!("line {line}: {} is not read", quote(section));
             self.draft.mesh.notes.push(note);
@@ -358,10 +348,6 @@ fn member<'a>(sets: &'a mut BTreeMap<String, Vec<usize>>, name: &str) -> &'a mut
         sets.insert(name.to_owned(), Vec::new());
     }
     sets.entry(name.to_owned()).or_default()
-}
-
-fn with_count(note: String, count: usize) -> String {
-    if count > 1 { format!("{note} (and {} more)", count - 1) } else { note }
 }
 
 #[cfg(test)]

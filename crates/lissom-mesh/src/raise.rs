@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use lissom_motion::Motion;
+use lissom_motion::{Motion, Vector3};
 
+use crate::error::MeshError;
 use crate::mesh::{Mesh, MeshElement};
 use crate::meshed_part::{Element, MeshedPart, positions};
 
@@ -39,11 +40,11 @@ impl MeshedPart {
     /// # Errors
     /// As of [`Mesh::part`].
     pub fn of_solid(
-        mesh: &mut Mesh,
+        mut mesh: Mesh,
         group: Option<&str>,
         (frame, scale): (&Motion, f64),
-    ) -> Result<(Self, Mesh), crate::MeshError> {
-        let edges = edges_of_sets(mesh);
+    ) -> Result<(Self, Mesh), MeshError> {
+        let edges = edges_of_sets(&mesh);
         let of_elements: Vec<_> =
             mesh.element_sets.iter().map(|(name, own)| (name.clone(), mesh.nodes_of(own))).collect();
         for (name, nodes) in of_elements {
@@ -54,7 +55,7 @@ impl MeshedPart {
     }
 }
 
-fn raised(mesh: &Mesh, edges: &EdgesOfSets, positions: Vec<lissom_motion::Vector3>) -> MeshedPart {
+fn raised(mesh: &Mesh, edges: &EdgesOfSets, positions: Vec<Vector3>) -> MeshedPart {
     let given = positions.len();
     let mut part =
         MeshedPart { coordinates: 3, positions, sets: mesh.node_sets.clone(), ..MeshedPart::default() };

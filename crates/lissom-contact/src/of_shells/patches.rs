@@ -1,13 +1,13 @@
 //! The elements of a shell as parts of one surface that solids touch.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use lissom_motion::{Rotation, Vector3};
 
 use super::touch::{Overlap, Overlaps};
 use lissom_flexible::shell::Shell;
 use lissom_flexible::shell::quadrilateral::{EDGES, NODES};
-use lissom_flexible::shell::surface::ShellSurface;
 use lissom_mechanics::elements::InitialModel;
 use lissom_mechanics::kinematics::NodeId;
 
@@ -26,7 +26,7 @@ pub struct ContactPatch {
 }
 
 /// All elements of a surface. Those at both sides of an edge are neighbours if they have the same directors there: not at a fold.
-pub fn contact_patches(model: &InitialModel, surface: &ShellSurface) -> Vec<ContactPatch> {
+pub fn contact_patches(model: &InitialModel, surface: &[Arc<Shell>]) -> Vec<ContactPatch> {
     let frame = |node: NodeId| model.frame(node);
     let director = |own: &Shell, i: usize| frame(own.nodes()[i]).rotation.apply(&own.director(i));
     // From the middle of an edge to the middle of the opposite one.
@@ -38,16 +38,16 @@ pub fn contact_patches(model: &InitialModel, surface: &ShellSurface) -> Vec<Cont
         (middle(edge) - middle(edge ^ 1)).norm()
     };
     let mut sides: BTreeMap<[usize; 2], Vec<(usize, usize)>> = BTreeMap::new();
-    for (index, own) in surface.elements.iter().enumerate() {
+    for (index, own) in surface.iter().enumerate() {
         for (edge, (i, j)) in EDGES.into_iter().enumerate() {
             let [a, b] = [i, j].map(|k| own.nodes()[k].index());
             sides.entry([a.min(b), a.max(b)]).or_default().push((index, edge));
         }
     }
-    let mut overlaps: Vec<Overlaps> = vec![[[None; 2]; 2]; surface.elements.len()];
+    let mut overlaps: Vec<Overlaps> = vec![[[None; 2]; 2]; surface.len()];
     for both in sides.values() {
         let &[(one, edge), (other, opposite)] = both.as_slice() else { continue };
-        let elements = [&surface.elements[one], &surface.elements[other]];
+        let elements = [&surface[one], &surface[other]];
         let is_smooth = [EDGES[edge].0, EDGES[edge].1].into_iter().all(|i| {
             let j = elements[1].nodes().iter().position(|node| *node == elements[0].nodes()[i]);
             j.is_some_and(|j| (director(elements[0], i) - director(elements[1], j)).norm() < 1e-9)
@@ -63,11 +63,11 @@ pub fn contact_patches(model: &InitialModel, surface: &ShellSurface) -> Vec<Cont
             }
         }
     }
-    let patch = |(own, overlaps): (&std::sync::Arc<Shell>, Overlaps)| ContactPatch {
+    let patch = |(own, overlaps): (&Arc<Shell>, Overlaps)| ContactPatch {
         nodes: *own.nodes(),
         directors: std::array::from_fn(|i| own.director(i)),
         rotation: frame(own.nodes()[0]).rotation,
         overlaps,
     };
-    surface.elements.iter().zip(overlaps).map(patch).collect()
+    surface.iter().zip(overlaps).map(patch).collect()
 }

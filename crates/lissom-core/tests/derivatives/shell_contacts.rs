@@ -87,7 +87,7 @@ fn model(
     });
     let compliance = Compliance { stiffness: 3.0, exponent: if seed.is_multiple_of(2) { 1.0 } else { 1.5 } };
     let law = (compliance, if friction.is_some() { 0.1 } else { 0.0 });
-    let contacts: Vec<ShellContact> = contact_patches(builder.model(), &surface)
+    let contacts: Vec<ShellContact> = contact_patches(builder.model(), &surface.elements)
         .into_iter()
         .enumerate()
         .map(|(k, patch)| {

@@ -97,12 +97,19 @@ impl<const NODES: usize, const POINTS: usize> Element for SolidDamping<NODES, PO
             let turned = slopes.map(|slope| point.inverse_transpose * slope);
             let own: Matrix3 = velocities.iter().zip(&turned).map(|(v, q)| v * q.transpose()).sum();
             let weight = volume * point.determinant;
+            // Derivatives of the stress by the entries of Ḟ and of F, of which those by G are combinations.
+            let moduli: [[[Matrix3; 2]; 3]; 3] = std::array::from_fn(|k| {
+                std::array::from_fn(|along| {
+                    let change = Vector3::ith(k, *volume) * Vector3::ith(along, 1.0).transpose();
+                    let by_position = change * stress + gradient * self.stress(&change, rate);
+                    [gradient * self.stress(gradient, &change), by_position]
+                })
+            });
             for (j, slope) in slopes.iter().enumerate() {
                 by_positions[j] += weight * (own.trace() * turned[j] - own.tr_mul(&turned[j]));
-                for k in 0..3 {
-                    let change = Vector3::ith(k, 1.0) * slope.transpose();
-                    let by_velocity = *volume * gradient * self.stress(gradient, &change);
-                    let by_position = *volume * (change * stress + gradient * self.stress(&change, rate));
+                for (k, [x, y, z]) in moduli.iter().enumerate() {
+                    let [by_velocity, by_position] =
+                        [0, 1].map(|by| x[by] * slope.x + y[by] * slope.y + z[by] * slope.z);
                     for (i, other) in slopes.iter().enumerate() {
                         let [damping, stiffness] = [by_velocity * other, by_position * other];
                         for row in 0..3 {

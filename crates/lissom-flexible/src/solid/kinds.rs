@@ -17,13 +17,6 @@ use lissom_mechanics::elements::initial_model::InitialModel;
 use lissom_mechanics::elements::mass_distribution::MassDistribution;
 use lissom_mechanics::kinematics::{Kinematics, NodeId};
 
-/// A tetrahedron with ten nodes.
-pub type Tetrahedron = Solid<10, 4>;
-/// A hexahedron with twenty nodes.
-pub type Hexahedron = Solid<20, 21>;
-/// A wedge with fifteen nodes.
-pub type Wedge = Solid<15, 9>;
-
 /// A solid element of any kind, as outputs, pictures and files need it.
 pub trait SolidElement: Send + Sync {
     /// Its nodes, in the order of Abaqus.

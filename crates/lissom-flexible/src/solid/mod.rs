@@ -32,7 +32,7 @@ use lissom_mechanics::elements::{Capabilities, Deformable, Element, Energy, Tang
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 use lissom_mechanics::kinematics::{Kinematics, NodeId, Stressed};
 
-pub use self::kinds::{Hexahedron, SolidElement, SolidMaterial, Tetrahedron, Wedge, element};
+pub use self::kinds::{SolidElement, SolidMaterial, element};
 pub use self::stress::{CauchyStress, principal, von_mises};
 
 /// A solid element. Constants are shared by copies.

@@ -269,7 +269,7 @@ fn mesh(reader: &Reader<'_, '_>) -> Option<MeshedPart> {
     let (context, node) = (reader.context, reader.node("mesh")?);
     let what = reader.words("mesh");
     let (frame, scale) = (context.frame(reader.scope)?, reader.number("scale")?.value);
-    let take = |mut mesh: Mesh, group: Option<&str>| MeshedPart::of_solid(&mut mesh, group, (&frame, scale));
+    let take = |mesh: Mesh, group: Option<&str>| MeshedPart::of_solid(mesh, group, (&frame, scale));
     let (mut part, mesh) = file(reader, ("solids.md", "solid"), take)?;
     // Between linear elements nodes were added that a set of all nodes in the file lacks.
     part.sets.retain(|name, _| name != ALL || mesh.node_sets[name].len() < mesh.positions.len());

@@ -62,8 +62,9 @@ pub(super) fn add(
         for load in &shell.loads {
             problems.extend(add_load(document, (shell, load), &surface, builder).err());
         }
-        let nodes = BuiltNodes { mesh: Arc::clone(&shell.mesh), nodes: surface.nodes.clone() };
-        let built = BuiltShell { nodes, surface, plies, offset: shell.offset };
+        let ShellSurface { nodes, areas, elements } = surface;
+        let nodes = BuiltNodes { mesh: Arc::clone(&shell.mesh), nodes };
+        let built = BuiltShell { nodes, areas, elements, plies, offset: shell.offset };
         names.meshes.shells.insert(name.clone(), built);
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use lissom_flexible::shell::Shell;
 use lissom_flexible::shell::section::Ply;
-use lissom_flexible::shell::surface::ShellSurface;
 use lissom_flexible::solid::SolidElement;
 
 use crate::reading::mesh_nodes::BuiltNodes;
@@ -14,8 +14,10 @@ use crate::reading::mesh_nodes::BuiltNodes;
 pub struct BuiltShell {
     /// Its nodes.
     pub nodes: BuiltNodes,
+    /// Area that belongs to each node [m²].
+    pub(crate) areas: Vec<f64>,
     /// Its elements.
-    pub surface: ShellSurface,
+    pub elements: Vec<Arc<Shell>>,
     /// Layers of each element; one for all if they are the same.
     pub(crate) plies: Vec<Arc<[Ply]>>,
     /// Place of the middle of its thickness along the normal [m].

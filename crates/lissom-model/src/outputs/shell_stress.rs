@@ -114,7 +114,7 @@ impl BuiltShell {
     fn corners(&self, node: usize) -> Vec<Corner> {
         let of = |(index, element): (usize, [usize; 4])| {
             let at = element.iter().position(|&own| own == node)?;
-            let (element, plies) = (Arc::clone(&self.surface.elements[index]), self.plies_of(index));
+            let (element, plies) = (Arc::clone(&self.elements[index]), self.plies_of(index));
             Some(Corner { share: element.area(), element, at, plies, offset: self.offset, turn: [1.0, 0.0] })
         };
         self.nodes.mesh.quadrilaterals().enumerate().filter_map(of).collect()

@@ -36,7 +36,7 @@ pub struct ElasticSolid {
     /// Normal of the smooth surface at each corner, in the stress-free state.
     pub directors: Vec<[[f64; 3]; 4]>,
     /// Whether its law is that of rubber, otherwise of St. Venant and Kirchhoff.
-    pub is_neo_hookean: bool,
+    pub is_rubber: bool,
     /// Shear modulus [Pa].
     pub shear: f64,
     /// Bulk modulus [Pa].
@@ -109,7 +109,7 @@ pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<El
                 .collect(),
             directors: directors(&solid.mesh.positions, &elements),
             elements,
-            is_neo_hookean: solid.material.law.model == SolidModel::Rubber,
+            is_rubber: solid.material.law.model == SolidModel::Rubber,
             shear: solid.material.law.shear,
             bulk: solid.material.law.bulk,
             second: solid.material.law.second,

@@ -52,7 +52,7 @@ pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
     let drawn = |shell: &crate::document::Shell| {
         let built = places.of.names.meshes.shells.get(&shell.name.value)?;
         let count = shell.mesh.elements.len();
-        let elements = &built.surface.elements;
+        let elements = &built.elements;
         let nodes = &built.nodes.nodes;
         let areas = elements.iter().map(|element| element.area());
         let mut directors: Vec<[[f64; 3]; 4]> =

@@ -35,7 +35,7 @@ impl TouchingNodes {
     /// All nodes of a shell, with half of its thickness.
     pub(super) fn of_shell(shell: &Shell, built: &BuiltShell) -> Self {
         let thickness = thickness_at_nodes(shell);
-        let each = built.nodes.nodes.iter().zip(&built.surface.areas).zip(&thickness);
+        let each = built.nodes.nodes.iter().zip(&built.areas).zip(&thickness);
         Self {
             nodes: each.map(|((node, area), thickness)| (*node, *area, 0.5 * thickness)).collect(),
             // In the middle of the thickness; the third axis of a node is the normal.

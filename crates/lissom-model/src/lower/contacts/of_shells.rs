@@ -32,10 +32,10 @@ impl OfFlexible<'_> {
     ) -> Result<Vec<ContactPoint>, Problem> {
         let thickness = self.even_thickness(shell)?;
         let solids = solids(self.document, &self.entry.between[0].value);
-        let pairs = solids.len() * built.surface.elements.len();
+        let pairs = solids.len() * built.elements.len();
         let help = "use fewer elements or balls, or divide the shell";
         self.check_count((pairs, MAX_PAIRS), "balls and elements", help)?;
-        let patches = contact_patches(builder.model(), &built.surface);
+        let patches = contact_patches(builder.model(), &built.elements);
         let law = (self.law.compliance, self.law.dissipation);
         let mut all = Vec::new();
         for solid in solids {
@@ -64,10 +64,10 @@ impl OfFlexible<'_> {
         builder: &mut Builder,
     ) -> Result<Vec<ContactPoint>, Problem> {
         let thickness = self.even_thickness(shell)?;
-        let elements = &built.surface.elements;
+        let elements = &built.elements;
         let help = "use fewer elements, or divide the shells";
         self.check_count((own.nodes.len() * elements.len(), MAX_PAIRS), "nodes and elements", help)?;
-        let patches = contact_patches(builder.model(), &built.surface);
+        let patches = contact_patches(builder.model(), &built.elements);
         let mut all = Vec::new();
         for (number, &(node, area, radius)) in own.nodes.iter().enumerate() {
             // Elements around the node, and those around these.

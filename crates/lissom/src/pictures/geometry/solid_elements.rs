@@ -17,7 +17,7 @@ pub struct SolidElements {
 impl SolidElements {
     /// Those of a solid.
     pub fn new(solid: &ElasticSolid) -> Self {
-        let model = if solid.is_neo_hookean { SolidModel::Rubber } else { SolidModel::StVenantKirchhoff };
+        let model = if solid.is_rubber { SolidModel::Rubber } else { SolidModel::StVenantKirchhoff };
         let law = SolidLaw { model, shear: solid.shear, bulk: solid.bulk, second: solid.second };
         let built = |(kind, nodes): (&String, &Vec<usize>)| {
             let ids: Vec<NodeId> = nodes.iter().map(|&node| solid.nodes[node]).collect();
