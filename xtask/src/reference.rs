@@ -58,7 +58,7 @@ fn with_table(chapter: String, (name, table): &Table) -> String {
 
 /// The entries of the catalogue of a severity.
 fn catalogued(name: &'static str, severity: Severity) -> Table {
-    let row = |entry: &Entry| format!("| `{}` | {} | {} |\n", entry.code, entry.meaning, entry.advice);
+    let row = |entry: &Entry| format!("| `{}` | {} | {} |\n", entry.code, entry.meaning, entry.advice());
     let rows: String = catalogue().filter(|entry| entry.severity == severity).map(row).collect();
     (name, format!("| code | meaning | remedy |\n|---|---|---|\n{rows}"))
 }

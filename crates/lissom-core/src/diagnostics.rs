@@ -8,7 +8,7 @@ pub use lissom_mechanics::diagnostics::{Diagnose, Diagnostic, Entry, Severity, V
 /// Defines an enumeration of warnings or failures with its entries of the catalogue.
 ///
 /// After the values of a variant, by reference: its code, its time and subject if it has them, the message with its arguments,
-/// the remedy, and for the catalogue its meaning and general remedy. A section `wraps` has variants that contain another
+/// the remedy, and for the catalogue its meaning, and a general remedy if it differs. A section `wraps` has variants that contain another
 /// diagnostic.
 macro_rules! diagnostics {
     (
@@ -22,7 +22,7 @@ macro_rules! diagnostics {
                     cause: ($message:literal $(, $argument:expr)*),
                     remedy: $remedy:literal,
                     meaning: $meaning:literal,
-                    advice: $advice:literal,
+                    $(advice: $advice:literal,)?
                 }
             )*
         }
@@ -48,7 +48,7 @@ macro_rules! diagnostics {
                     severity: $crate::diagnostics::Severity::$severity,
                     message: $message,
                     meaning: $meaning,
-                    advice: $advice,
+                    advice: [$($advice,)? $remedy][0],
                 },)*
             ];
 
@@ -203,7 +203,7 @@ pub(crate) mod tests {
         for entry in crate::catalogue::entries() {
             let is_word = |c: char| c.is_ascii_lowercase() || c == '-';
             assert!(entry.code.chars().all(is_word), "{}", entry.code);
-            let [meaning, advice] = [entry.meaning, entry.advice];
+            let [meaning, advice] = [entry.meaning, &entry.advice()];
             assert!(meaning.ends_with('.') && advice.ends_with('.'), "{}", entry.code);
             assert!(!meaning.contains(" | ") && !advice.contains(" | "), "{}", entry.code);
         }

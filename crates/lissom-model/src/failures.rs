@@ -60,7 +60,6 @@ catalogued! {
             cause: "the table has no heading that begins with `time`",
             remedy: "run the model again",
             meaning: "The table of results, `history.csv`, has no heading: it was changed, or is another file.",
-            advice: "Run the model again.",
         }
         BadLine { 0 => line } => "table-line" {
             cause: "line {line} does not contain one number for each column",
@@ -75,13 +74,11 @@ catalogued! {
             cause: "the scene is of version {version}, which this program does not read",
             remedy: "run the model again",
             meaning: "The description of a model's parts for pictures, `scene.json`, was written by another version of the program.",
-            advice: "Run the model again.",
         }
         Damaged { 0 => reason } => "scene-damaged" {
             cause: "the file does not describe a scene: {reason}",
             remedy: "run the model again",
             meaning: "The description of a model's parts for pictures, `scene.json`, is damaged or another file.",
-            advice: "Run the model again.",
         }
     } wraps {}
 

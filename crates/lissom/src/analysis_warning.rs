@@ -162,7 +162,6 @@ catalogued! {
             remedy: "move the state off the kink, or make the law smooth there",
             meaning: "A force has different derivatives on the two sides of the state of linearisation, such as a stop that just \
                       touches.",
-            advice: "Move the state off the kink, or make the law smooth there.",
         }
         Unsteady { time => time, change => change } => "frozen-coefficients" {
             cause: "the motion at t = {time} s is not steady (relative change of its twists {change:.1e}): frequencies are those of \
@@ -211,13 +210,11 @@ catalogued! {
             cause: "{wanted} modes were requested, and {evidence} only {found}",
             remedy: "request fewer modes, or use more elements",
             meaning: "The model has fewer modes than requested, or the search has found fewer.",
-            advice: "Request fewer modes, or use more elements.",
         }
         UnlikeShapes { line => line, path => path, value => value, correlation => correlation } => "campbell-unlike-shapes" {
             cause: "line {line} is continued to `{path}` = {value} between shapes with a correlation of only {correlation:.2}",
             remedy: "use more values",
             meaning: "A line of a Campbell diagram may pass to another mode, because shapes change much between two values.",
-            advice: "Use more values.",
         }
         LargeRotation { angle => angle } => "buckling-rotation" {
             cause: "nodes rotate by up to {angle:.2} rad under the loads: load factors far from 1 are extrapolated although the \
@@ -273,7 +270,6 @@ catalogued! {
                     to it",
             remedy: "linearise about a stable state",
             meaning: "A harmonic response exists only as the limit of motions of a stable state.",
-            advice: "Linearise about a stable state.",
         }
         PeaksAbove { frequency => frequency } => "response-peaks-above" {
             cause: "natural frequencies were computed up to {frequency} Hz: above, peaks narrower than the spacing of frequencies \
@@ -305,7 +301,6 @@ catalogued! {
                     superelement lacks the change of its stiffness by loads",
             remedy: "reduce parts without internal joints",
             meaning: "A superelement with internal joints has no geometric stiffness.",
-            advice: "Reduce parts without internal joints.",
         }
         FarFromReference {} => "study-far-from-reference" {
             cause: "no run is close to the reference, which may itself be inaccurate",

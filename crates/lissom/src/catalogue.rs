@@ -34,7 +34,7 @@ mod tests {
     #[test]
     fn entries_are_sentences() {
         for entry in catalogue() {
-            let [meaning, advice] = [entry.meaning, entry.advice];
+            let [meaning, advice] = [entry.meaning, &entry.advice()];
             assert!(meaning.ends_with('.') && advice.ends_with('.'), "{}", entry.code);
             assert!(
                 !meaning.contains(" | ") && !meaning.contains("  ") && !advice.contains("  "),

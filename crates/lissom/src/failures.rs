@@ -95,7 +95,6 @@ catalogued! {
             cause: "output `{name}` has no derivatives with respect to joint coordinates or rates",
             remedy: "use an output of positions or velocities",
             meaning: "Accelerations, forces and accumulated outputs are no functions of joint coordinates and rates.",
-            advice: "Use an output of positions or velocities.",
         }
     } wraps {
         Assembly { 0 => error } => error.diagnostic(),
@@ -140,7 +139,6 @@ catalogued! {
             cause: "the analysis is of kind `{kind}`, not `path`",
             remedy: "set `analysis.kind` to `path`",
             meaning: "An equilibrium path was requested for a model with an analysis of another kind.",
-            advice: "Set `analysis.kind` to `path`.",
         }
         AlreadyCritical { path => path, load_factor => load_factor } => "path-loads-critical" {
             cause: "`{path}` is varied from the equilibrium under the loads of the model, but they exceed a critical point at load \
@@ -148,7 +146,6 @@ catalogued! {
             remedy: "start with smaller loads, or vary a parameter of the loads instead",
             meaning: "A path along a number of the model starts from the equilibrium under its loads. It is ambiguous if the loads \
                       exceed a critical point.",
-            advice: "Start with smaller loads, or vary a parameter of the loads instead.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),
@@ -163,7 +160,6 @@ catalogued! {
             cause: "the model has no input `{name}`; its inputs are {known}",
             remedy: "specify an entry of [inputs], a load or a prescribed motion",
             meaning: "An input of a frequency response or linear model does not exist.",
-            advice: "Specify an entry of [inputs], a load or a prescribed motion.",
         }
         Ambiguous { name => name, meanings => meanings } => "port-ambiguous" {
             cause: "`{name}` is ambiguous",
@@ -181,13 +177,11 @@ catalogued! {
             cause: "the output `{name}` has no linear response: it is accumulated from step to step",
             remedy: "use a power or a relative coordinate",
             meaning: "Work and angles beyond half a revolution depend on the whole motion and have no linear response.",
-            advice: "Use a power or a relative coordinate.",
         }
         WithoutEffect { 0 => name } => "port-without-effect" {
             cause: "the input `{name}` has no effect: no load, state or requested output depends on it in this state",
             remedy: "use another input, or a state in which it acts",
             meaning: "The derivative of the equations and of all requested outputs with respect to an input is zero.",
-            advice: "Use another input, or a state in which it acts.",
         }
     } wraps {
         Model { 0 => error } => error.diagnostic(),
@@ -210,19 +204,16 @@ catalogued! {
             cause: "the output at t = {time} s was requested, but the analysis is from {start} to {end} s",
             remedy: "choose a time of the analysis",
             meaning: "The time at which an output is differentiated is outside of the analysis.",
-            advice: "Choose a time of the analysis.",
         }
         NotInTime { 0 => kind } => "gradient-kind" {
             cause: "an analysis of kind `{kind}` has no time steps along which outputs are differentiated",
             remedy: "use an analysis of kind `dynamics` or `statics`",
             meaning: "Derivatives are computed along time steps or load steps.",
-            advice: "Use an analysis of kind `dynamics` or `statics`.",
         }
         Unlike { 0 => path } => "gradient-unknowns" {
             cause: "a change of `{path}` changes the unknowns of the model, so there is no derivative with respect to it",
             remedy: "choose a number that changes neither parts nor elements",
             meaning: "The number of unknowns depends on the number with respect to which an output is differentiated.",
-            advice: "Choose a number that changes neither parts nor elements.",
         }
         KinkMoves { path => path, time => time } => "gradient-breakpoint" {
             cause: "a change of `{path}` moves a kink or jump of a load or drive, at t = {time} s, at which a step ends",
@@ -250,7 +241,6 @@ catalogued! {
                     spring, and differences of runs over two distances disagree",
             remedy: "choose another time, a smaller `analysis.relative_tolerance`, or compare runs",
             meaning: "The output is not smooth in this number, or a force switches at the time of the output.",
-            advice: "Choose another time, a smaller `analysis.relative_tolerance`, or compare runs.",
         }
         Denied { expected => expected, found => found } => "gradient-refuted" {
             cause: "the derivatives add up to a change of {expected:.3e}, but runs of the model with perturbed numbers change by {found:.3e}",
@@ -271,7 +261,6 @@ catalogued! {
             cause: "an analysis of kind `{kind}` has no history from which scalars are collected",
             remedy: "use an analysis of kind `dynamics` or `statics`",
             meaning: "Sweeps collect scalars from histories over time.",
-            advice: "Use an analysis of kind `dynamics` or `statics`.",
         }
         Column { name => name, column => column, known => known } => "sweep-column" {
             cause: "`{name}` collects `{column}`, which the model does not record",
@@ -306,13 +295,11 @@ catalogued! {
             cause: "an analysis of kind `{kind}` has no time steps, which a unit requires",
             remedy: "use an analysis of kind `dynamics` or `statics`",
             meaning: "A co-simulation unit advances its model in time.",
-            advice: "Use an analysis of kind `dynamics` or `statics`.",
         }
         SameName { 0 => name } => "unit-name" {
             cause: "`{name}` would be the name of two variables",
             remedy: "rename one of them in the model",
             meaning: "The variables of a co-simulation unit (inputs, parameters, columns) must have distinct names.",
-            advice: "Rename one of them in the model.",
         }
         Archive { 0 => error } => "unit-archive" {
             cause: "the archive cannot be created: {error}",
@@ -329,7 +316,6 @@ catalogued! {
             cause: "`{path}` {content}",
             remedy: "specify a folder of results, such as `lissom run MODEL.toml --out DIR` creates",
             meaning: "The given path is not a folder with results of a run.",
-            advice: "Specify a folder of results, such as `lissom run MODEL.toml --out DIR` creates.",
         }
         Several { path => path, first => first, folders => folders } => "several-results" {
             cause: "`{path}` has no results itself, but folders of results: {folders}",
@@ -356,19 +342,16 @@ catalogued! {
             cause: "the file is not a motion file of this program",
             remedy: "run the model again",
             meaning: "A file in the place of a recorded motion, `motion.bin`, has other contents.",
-            advice: "Run the model again.",
         }
         Version { 0 => version } => "motion-version" {
             cause: "the motion file is of version {version}, but that of this program is {VERSION}",
             remedy: "run the model again",
             meaning: "A motion was recorded by another version of the program.",
-            advice: "Run the model again.",
         }
         Damaged {} => "motion-damaged" {
             cause: "the motion file is damaged, or belongs to another model",
             remedy: "run the model again",
             meaning: "A recorded motion ends before its first frame, has an invalid header, or does not fit the scene beside it.",
-            advice: "Run the model again.",
         }
         Altered { 0 => frame } => "motion-altered" {
             cause: "frame {frame} of the motion is not as it was written: its checksum differs",
@@ -380,7 +363,6 @@ catalogued! {
             cause: "frame {frame} of the motion contains a number that is not finite",
             remedy: "run the model again",
             meaning: "A recorded motion contains a number that is infinite or not a number.",
-            advice: "Run the model again.",
         }
     } wraps {}
 
@@ -389,13 +371,11 @@ catalogued! {
             cause: "the motion has no frames",
             remedy: "run the model again",
             meaning: "The recorded motion to be exported has no frames.",
-            advice: "Run the model again.",
         }
         Archive { 0 => error } => "export-archive" {
             cause: "the archive cannot be packed: {error}",
             remedy: "request fewer frames or outputs",
             meaning: "The archive of an export exceeds the limits of its format, or memory is insufficient.",
-            advice: "Request fewer frames or outputs.",
         }
         TooLarge {} => "export-too-large" {
             cause: "the results exceed 4 GB, the limit of this format",
@@ -412,13 +392,11 @@ catalogued! {
             cause: "there is no motion at t = {time} s: it was recorded from {first} s to {last} s",
             remedy: "choose an instant of the recorded motion",
             meaning: "A picture was requested at an instant outside of the recorded motion.",
-            advice: "Choose an instant of the recorded motion.",
         }
         Empty {} => "picture-empty" {
             cause: "the motion has no frames",
             remedy: "run the model again",
             meaning: "The recorded motion to be drawn has no frames.",
-            advice: "Run the model again.",
         }
         TooMany { count => count, most => most } => "picture-count" {
             cause: "{count} pictures were requested",
@@ -439,7 +417,6 @@ catalogued! {
             cause: "`{path}` holds another sweep: its model, its sweep file or the version of the program is different",
             remedy: "choose another folder by `--out`, or discard its contents by `--restart`",
             meaning: "The folder of a sweep has members of another sweep.",
-            advice: "Choose another folder by `--out`, or discard its contents by `--restart`.",
         }
         Busy { 0 => path } => "sweep-busy" {
             cause: "another process is writing to `{path}`",
@@ -451,7 +428,6 @@ catalogued! {
             cause: "line {line} of `{path}` is not a member of this sweep",
             remedy: "discard the contents of the folder by `--restart`",
             meaning: "The record of the completed members of a sweep has an invalid line.",
-            advice: "Discard the contents of the folder by `--restart`.",
         }
     } wraps {
         File { 0 => error } => error.diagnostic(),
@@ -468,7 +444,6 @@ catalogued! {
             cause: "`{path}` is not a checkpoint of this version of the program",
             remedy: "run the model again",
             meaning: "A checkpoint is damaged, or was written by another version of the program.",
-            advice: "Run the model again.",
         }
     } wraps {
         File { 0 => error } => error.diagnostic(),
@@ -479,7 +454,6 @@ catalogued! {
             cause: "this study requires time steps, which the analysis of the model does not have",
             remedy: "use an analysis of kind `dynamics`",
             meaning: "A study compares time steps or step sizes, which an analysis of another kind does not have.",
-            advice: "Use an analysis of kind `dynamics`.",
         }
         SchemeWord { word => word, reason => reason } => "study-scheme" {
             cause: "`{word}` is not a scheme for a study",
@@ -509,7 +483,6 @@ catalogued! {
             cause: "the output `{name}` is zero at all times",
             remedy: "choose an output that changes",
             meaning: "Errors are relative to the amplitude of the output, which is zero.",
-            advice: "Choose an output that changes.",
         }
         Interrupted {} => "study-interrupted" {
             cause: "interrupted",
@@ -542,7 +515,6 @@ catalogued! {
             cause: "port {port} cannot be used: {reason}",
             remedy: "choose another port by `--port`",
             meaning: "Another program uses the port of a live page, or it is reserved.",
-            advice: "Choose another port by `--port`.",
         }
         Output { 0 => reason } => "output-cut" {
             cause: "the standard output is incomplete: {reason}",
@@ -582,7 +554,6 @@ catalogued! {
             cause: "the model was not built in code, so its parts have no ids",
             remedy: "use the names of nodes",
             meaning: "A part was requested by an id, but ids exist only for models that are built in code.",
-            advice: "Use the names of nodes.",
         }
         NoInput { 0 => name } => "state-without-input" {
             cause: "the state has no input `{name}`: it belongs to another model",
@@ -594,7 +565,6 @@ catalogued! {
             cause: "`{name}` is a beam, which has many nodes",
             remedy: "set the motion of its nodes in the state",
             meaning: "The motion of a part was set by one position and velocity, which a beam does not have.",
-            advice: "Set the motion of its nodes in the state.",
         }
     } wraps {
         Foreign { 0 => error } => error.diagnostic(),

@@ -28,12 +28,12 @@ pub(super) struct Explain {
 
 /// Whether an entry contains these words.
 fn has(entry: &Entry, words: &str) -> bool {
-    let texts = [entry.code, entry.message, entry.meaning, entry.advice];
+    let texts = [entry.code, entry.message, entry.meaning, &entry.advice()];
     texts.iter().any(|text| text.to_lowercase().contains(&words.to_lowercase()))
 }
 
 fn render(entry: &Entry) -> String {
-    format!("{}\n  {}\n  {}\n", entry.code, entry.meaning, entry.advice)
+    format!("{}\n  {}\n  {}\n", entry.code, entry.meaning, entry.advice())
 }
 
 fn find(code: &str) -> Option<&'static Entry> {
@@ -72,7 +72,7 @@ fn of_run(folder: &Path) -> Result<String, Failure> {
     let mut report = |what: &str, message: &str, code: &str| {
         lines.push(format!("{what}: {message}"));
         if let Some(entry) = find(code) {
-            lines.extend([format!("  {}", entry.meaning), format!("  {}", entry.advice)]);
+            lines.extend([format!("  {}", entry.meaning), format!("  {}", entry.advice())]);
         }
     };
     for warning in summary["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str) {

@@ -136,7 +136,6 @@ diagnostics! {
                     parts apart, and the forces are not determined"),
             remedy: "reduce `friction`, or give the contact a `stiffness` instead of `rigid`",
             meaning: "A rigid part slides such that no unique normal force exists (Painlevé's paradox).",
-            advice: "Reduce `friction`, or give the contact a `stiffness` instead of `rigid`.",
         }
         /// A rigid contact that begins with a penetration.
         ContactPenetration {

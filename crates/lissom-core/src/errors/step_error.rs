@@ -267,7 +267,6 @@ diagnostics! {
             remedy: "use more elements",
             meaning: "The nodes of a beam element are rotated against each other by nearly half a turn or more: there are too few elements for \
                 the twist or the bend.",
-            advice: "Use more elements.",
         }
         /// Sections of a beam overlap.
         SectionsOverlap {

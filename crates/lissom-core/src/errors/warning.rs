@@ -49,7 +49,6 @@ diagnostics! {
             remedy: "use a smaller `restitution` or `friction`, or a contact with a `stiffness`",
             meaning: "An impact at several rigid contacts, or at one with friction, would gain energy by Newton's law of restitution. The restitution \
                 was reduced until it does not.",
-            advice: "Use a smaller `restitution` or `friction`, or a contact with a `stiffness`.",
         }
         /// An equilibrium is unstable.
         Unstable {
@@ -285,7 +284,6 @@ diagnostics! {
             remedy: "halve `step`: the loss is halved with it",
             meaning: "A scheme of first order, with which contacts of many parts are solved, removes more than 5 % of the energy exchanged from parts \
                 that do not touch.",
-            advice: "Halve `step`: the loss is halved with it.",
         }
         /// Friction of rigid contacts that slide depends on normal forces that are not unique.
         SlidingForcesNotUnique {
@@ -301,7 +299,6 @@ diagnostics! {
             remedy: "use contacts with a `stiffness` instead of `rigid`",
             meaning: "More rigid contacts with friction slide than are needed to support a part. Its normal forces are not unique, and its motion depends \
                 on which contacts carry it.",
-            advice: "Use contacts with a `stiffness` instead of `rigid`.",
         }
         /// The phase of a long motion without damping has drifted.
         EnergyDrift {
@@ -449,7 +446,6 @@ diagnostics! {
             remedy: "start the parts apart, or leave a solid out of contacts with `touches = false`",
             meaning: "Two shapes in contact overlap at the start by more than a load would press them into each other. Their contact \
                 force accelerates them.",
-            advice: "Start the parts apart, or leave a solid out of contacts with `touches = false`.",
         }
         /// A rope is slack at the start.
         RopeSlack {
@@ -547,7 +543,6 @@ diagnostics! {
             remedy: "use a larger contact stiffness, or start the parts apart",
             meaning: "Two shapes in contact penetrate each other by more than half of their size; the contact force is no longer meaningful, \
                 and the parts may pass through each other.",
-            advice: "Use a larger contact stiffness, or start the parts apart.",
         }
         /// A ball in a hollow of a shape touches two sides of it.
         ContactInHollow {

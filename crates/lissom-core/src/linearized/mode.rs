@@ -119,14 +119,12 @@ diagnostics! {
             cause: ("no mode is requested"),
             remedy: "set `count` to at least 1",
             meaning: "The requested number of modes is zero.",
-            advice: "Set `count` to at least 1.",
         }
         /// The small eigenvalue problem of the search has no solution.
         NotConverged {} => "modes-not-converged" {
             cause: ("the search for modes did not converge"),
             remedy: "request fewer modes, or those near another frequency by `shift`",
             meaning: "The eigenvalue problem of the search for modes was not solved.",
-            advice: "Request fewer modes, or those near another frequency by `shift`.",
         }
     }
     wraps {

@@ -77,7 +77,6 @@ diagnostics! {
                     only"),
             remedy: "remove the latch, or lock its joint by a stiff spring",
             meaning: "The analysis does not support latches, which are constraints between velocities.",
-            advice: "Remove the latch, or lock its joint by a stiff spring.",
         }
         /// A rigid contact.
         RigidContact {

@@ -49,14 +49,12 @@ diagnostics! {
             cause: ("the model has {coordinates} coordinates: full matrices are formed of at most {MAX_COORDINATES}"),
             remedy: "use the sparse matrices of second order",
             meaning: "Full matrices of first-order equations are formed of small models only.",
-            advice: "Use the sparse matrices of second order.",
         }
         /// Inputs act on constraints.
         PrescribedInput {} => "state-space-prescribed-input" {
             cause: ("an input is a prescribed motion, whose velocity and acceleration would be inputs as well"),
             remedy: "use a load as input",
             meaning: "A prescribed motion is no input of first-order equations, because they contain its velocity and acceleration, too.",
-            advice: "Use a load as input.",
         }
         /// Some degrees of freedom have no mass.
         Massless {} => "state-space-massless" {
@@ -88,7 +86,6 @@ diagnostics! {
             cause: ("a reaction among the outputs is not unique, because constraints are redundant"),
             remedy: "remove the redundant constraint, or the output",
             meaning: "A reaction among the outputs is not unique, because constraints are redundant.",
-            advice: "Remove the redundant constraint, or the output.",
         }
     }
 }

@@ -65,14 +65,12 @@ diagnostics! {
             cause: ("the model without its loads has other unknowns than with them"),
             remedy: "omit loads that add coordinates or states",
             meaning: "The model without its loads has other unknowns than with them.",
-            advice: "Omit loads that add coordinates or states.",
         }
         /// Loads depend on the motion through signals, or there are first-order states.
         Feedback {} => "path-feedback" {
             cause: ("a system with feedback has no equilibrium path"),
             remedy: "remove loads and states whose signals depend on the motion",
             meaning: "The path of a system with feedback is not defined.",
-            advice: "Remove loads and states whose signals depend on the motion.",
         }
         /// There are constraints between velocities, which a path has none of.
         VelocityConstraint {
@@ -83,7 +81,6 @@ diagnostics! {
             cause: ("an equilibrium path has no velocities, which the {constraint} relates"),
             remedy: "replace rolling joints by others, and remove latches or lock their joints",
             meaning: "Rolling joints and latches are constraints between velocities, of which an equilibrium path has none.",
-            advice: "Replace rolling joints by others, and remove latches or lock their joints.",
         }
         /// No load acts.
         NoLoad {} => "path-without-load" {
@@ -103,7 +100,6 @@ diagnostics! {
                     along it"),
             remedy: "vary a number that forces, stiffnesses or lengths depend on",
             meaning: "The varied number does not change the equilibrium.",
-            advice: "Vary a number that forces, stiffnesses or lengths depend on.",
         }
         /// The value at the start of the path is invalid.
         NoSystem {
@@ -133,7 +129,6 @@ diagnostics! {
             cause: ("the path ends at {name} {value}, {arc:.3e} along it: the model is invalid beyond ({problem})"),
             remedy: "end the path before that value, or follow it in the opposite direction",
             meaning: "The model is not valid beyond the reported value of the varied number.",
-            advice: "End the path before that value, or follow it in the opposite direction.",
         }
         /// No step has a solution, however short.
         Lost {
@@ -187,7 +182,6 @@ diagnostics! {
                     `branch` requests"),
             remedy: "set more `steps`, a smaller first `step`, or another `branch`",
             meaning: "The path has met fewer bifurcations than `branch` requests.",
-            advice: "Set more `steps`, a smaller first `step`, or another `branch`.",
         }
         /// No branch was found at a bifurcation.
         NoBranchThere {
@@ -201,7 +195,6 @@ diagnostics! {
             cause: ("no branch is found at the bifurcation at {name} {load_factor}: {reason}"),
             remedy: "disturb the model slightly, so that its path continues on a branch, or omit `branch`",
             meaning: "No branch was found at the bifurcation.",
-            advice: "Disturb the model slightly, so that its path continues on a branch, or omit `branch`.",
         }
         /// The maximum number of steps is reached.
         TooManySteps {
@@ -217,7 +210,6 @@ diagnostics! {
             cause: ("after {steps} steps the {name} is {load_factor} and has not reached {end}"),
             remedy: "set more `steps`, or an `end` that the path reaches",
             meaning: "The path has not reached its end in the given number of steps.",
-            advice: "Set more `steps`, or an `end` that the path reaches.",
         }
     }
     wraps {

@@ -71,7 +71,6 @@ diagnostics! {
             cause: ("the snapshot is of version {found}, but this program reads version {VERSION}"),
             remedy: "run the model again",
             meaning: "A snapshot was taken by another version of the program.",
-            advice: "Run the model again.",
         }
         /// It was taken of another model, or with another scheme.
         OtherModel {
@@ -81,14 +80,12 @@ diagnostics! {
             cause: ("the snapshot belongs to another model or scheme ({found})"),
             remedy: "restore it in a session of the model of which it was taken",
             meaning: "A snapshot was taken of another model, or with another scheme.",
-            advice: "Restore it in a session of the model of which it was taken.",
         }
         /// It contains invalid data, such as a tangent that cannot be factored again.
         Damaged {} => "snapshot-damaged" {
             cause: ("the snapshot is damaged"),
             remedy: "run the model again",
             meaning: "A snapshot cannot be read, or its tangent cannot be factored again.",
-            advice: "Run the model again.",
         }
     }
 }

@@ -33,7 +33,7 @@ macro_rules! catalogued {
             cause: $cause:literal,
             remedy: $remedy:literal,
             meaning: $meaning:literal,
-            advice: $advice:literal,
+            $(advice: $advice:literal,)?
         })*
     } wraps {
         $($wrap:ident { $($wrapped:tt => $inner:ident),* } => $made:expr,)*
@@ -45,7 +45,7 @@ macro_rules! catalogued {
             severity: $crate::diagnostics::Severity::$severity,
             message: $cause,
             meaning: $meaning,
-            advice: $advice,
+            advice: [$($advice,)? $remedy][0],
         },)*)*];
 
         $(impl $crate::diagnostics::Diagnose for $type {
@@ -58,7 +58,7 @@ macro_rules! catalogued {
                             severity: $crate::diagnostics::Severity::$severity,
                             message: $cause,
                             meaning: $meaning,
-                            advice: $advice,
+                            advice: [$($advice,)? $remedy][0],
                         };
                         let values = vec![$((stringify!($name), $crate::diagnostics::Value::from($name))),*];
                         $crate::number::as_written!($($name),*);

@@ -28,8 +28,17 @@ pub struct Entry {
     pub message: &'static str,
     /// Its meaning.
     pub meaning: &'static str,
-    /// General remedy.
+    /// General remedy: a sentence, or that of its messages.
     pub advice: &'static str,
+}
+
+impl Entry {
+    /// The general remedy as a sentence.
+    pub fn advice(&self) -> String {
+        let (first, rest) = self.advice.split_at(self.advice.chars().next().map_or(0, char::len_utf8));
+        let end = if rest.ends_with('.') { "" } else { "." };
+        format!("{}{rest}{end}", first.to_uppercase())
+    }
 }
 
 /// A value of a diagnostic, in SI units.

@@ -223,13 +223,11 @@ catalogued! {
             cause: "the loads of the model exceed a critical load at load factor {load_factor}",
             remedy: "reduce the loads, or follow the equilibrium path by an analysis of kind `path`",
             meaning: "The linear estimate of buckling loads requires an equilibrium under loads below the first critical load.",
-            advice: "Reduce the loads, or follow the equilibrium path by an analysis of kind `path`.",
         }
         Missing { 0 => missed } => "load-factors-missed" {
             cause: "{missed} of the load factors below the last one were missed, according to the count of negative pivots",
             remedy: "request another `count`",
             meaning: "The search for load factors found fewer of them than the factorisation counts in the interval.",
-            advice: "Request another `count`.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),

@@ -429,7 +429,6 @@ catalogued! {
             cause: "a change of `{path}` changes the unknowns of the model, so modes cannot be tracked",
             remedy: "vary a number that changes neither parts nor elements",
             meaning: "Modes are tracked by their shapes, which requires the same unknowns for all values of the varied number.",
-            advice: "Vary a number that changes neither parts nor elements.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),

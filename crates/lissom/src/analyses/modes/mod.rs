@@ -392,7 +392,6 @@ catalogued! {
             cause: "the model cannot be linearised at t = {time} s: {reason}",
             remedy: "choose a time of the analysis, `static` or `undeformed`",
             meaning: "The time `about` is outside of the analysis, or the analysis has no time steps.",
-            advice: "Choose a time of the analysis, `static` or `undeformed`.",
         }
         Shift { 0 => frequency } => "modes-shift" {
             cause: "modes near {frequency} Hz were requested",

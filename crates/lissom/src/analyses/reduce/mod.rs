@@ -568,7 +568,6 @@ catalogued! {
             cause: "the archive of matrices cannot be packed: {error}",
             remedy: "reduce the number of modes or interfaces",
             meaning: "The matrices exceed the size of a NumPy archive, or memory is insufficient.",
-            advice: "Reduce the number of modes or interfaces.",
         }
     } wraps {
         State { 0 => error } => error.diagnostic(),
