@@ -13,7 +13,7 @@ use super::{
 };
 use crate::line::Line;
 use crate::parts::context::Context;
-use crate::reading::mesh_nodes::position_of;
+use crate::reading::mesh_nodes::{nodes_of, position_of};
 use crate::text::report::{Located, Problem, Span};
 use lissom_mesh::MeshedPart;
 
@@ -45,6 +45,17 @@ impl Places {
     pub(super) fn all(&self) -> impl Iterator<Item = Vector3> + '_ {
         let of_meshes = self.meshes.values().flat_map(|mesh| mesh.positions.iter().copied());
         self.points.values().copied().chain(of_meshes)
+    }
+
+    /// The position of a node, or a report of why it has none.
+    pub(super) fn required(&self, context: &Context<'_>, node: &Located<NodeReference>) -> Option<Vector3> {
+        if let NodeReference::Mesh { part, .. } = &node.value
+            && let Err(problem) = nodes_of(self.meshes.get(part)?, node)
+        {
+            context.report(problem);
+            return None;
+        }
+        self.of(&node.value)
     }
 
     /// Position of a node; the origin for the ground.

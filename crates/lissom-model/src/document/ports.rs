@@ -111,10 +111,10 @@ fn location(
     if let Some(place) = reader.node(key) {
         return reader.context.place(place, &reader.words(key)).map(|place| LocatedAt::Place(place.value));
     }
-    let mut all = default.iter().map(|key| &nodes[ports.node(key)].node.value);
+    let mut all = default.iter().map(|key| &nodes[ports.node(key)].node);
     let first = all.clone().next()?;
-    let node = all.find(|node| **node != NodeReference::Ground).unwrap_or(first);
-    if matches!(node, NodeReference::Mesh { place: MeshPlace::Set(_), .. }) {
+    let node = all.find(|node| node.value != NodeReference::Ground).unwrap_or(first);
+    if matches!(node.value, NodeReference::Mesh { place: MeshPlace::Set(_), .. }) {
         return Some(LocatedAt::EachNode);
     }
     own_place(reader.context, reader.scope, node, places).map(LocatedAt::Place)
@@ -132,7 +132,7 @@ fn locations(reader: &Reader<'_, '_>, key: &str, places: &Places) -> Option<Vec<
         let node = context.node(own.node("on")?, &own.words("on"))?;
         let at = match own.node("at") {
             Some(place) => context.place(place, &own.words("at")).map(|place| place.value),
-            None => own_place(context, reader.scope, &node.value, places),
+            None => own_place(context, reader.scope, &node, places),
         };
         Some(NodeLocation { node, at: Some(at?) })
     };
@@ -258,13 +258,13 @@ fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Ve
 fn own_place(
     context: &Context<'_>,
     scope: ScopeId,
-    node: &NodeReference,
+    node: &Located<NodeReference>,
     places: &Places,
 ) -> Option<Vector3> {
-    if *node == NodeReference::Ground {
+    if node.value == NodeReference::Ground {
         return context.frame(scope).map(|frame| frame.position);
     }
-    places.of(node)
+    places.required(context, node)
 }
 
 /// The coordinates that an expression names.

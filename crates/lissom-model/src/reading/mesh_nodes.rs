@@ -62,6 +62,17 @@ pub(crate) fn nodes_at(
     }
 }
 
+/// The same of a reference, reported where it is.
+///
+/// # Errors
+/// What is wrong, and the remedy.
+pub(crate) fn nodes_of(mesh: &MeshedPart, reference: &Located<NodeReference>) -> Result<Vec<usize>, Problem> {
+    let NodeReference::Mesh { part, place } = &reference.value else { return Ok(Vec::new()) };
+    nodes_at(mesh, part, place).map_err(|(message, help)| {
+        Problem::error(reference.span, message).label("nothing can be attached here").help(help)
+    })
+}
+
 /// The mean position of the nodes that a reference means [m].
 pub(crate) fn position_of(mesh: &MeshedPart, place: &MeshPlace) -> Option<Vector3> {
     let nodes = nodes_at(mesh, "", place).ok().filter(|nodes| !nodes.is_empty())?;
@@ -80,10 +91,7 @@ pub struct BuiltNodes {
 impl BuiltNodes {
     /// Indices of the nodes that a reference to the part means.
     pub(crate) fn indices(&self, reference: &Located<NodeReference>) -> Result<Vec<usize>, Problem> {
-        let NodeReference::Mesh { part, place } = &reference.value else { return Ok(Vec::new()) };
-        nodes_at(&self.mesh, part, place).map_err(|(message, help)| {
-            Problem::error(reference.span, message).label("nothing can be attached here").help(help)
-        })
+        nodes_of(&self.mesh, reference)
     }
 
     /// The only node that a reference to the part means.
