@@ -11,6 +11,8 @@ use num_complex::Complex64;
 const NAMED: (f64, usize) = (0.5, 3);
 /// A rotation is the larger motion if its arc at this fraction of the part's size exceeds the displacement.
 const ARM: f64 = 0.1;
+/// Rotations of nodes of a shell with smaller displacements than this fraction of their arc over an element are of directors alone.
+const DIRECTORS: f64 = 0.05;
 /// A direction is along an axis if this fraction of it is.
 const ALONG: f64 = 0.9;
 
@@ -53,6 +55,11 @@ fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>) -> Option<String>
     let span = own.first().zip(own.last()).map_or_else(Vector3::zeros, |(a, b)| place(b) - place(a));
     let size = if span.norm() > 0.0 { span.norm() } else { 1.0 };
     let is_turning = ARM * size * turned.norm() > moved.norm();
+    let apart =
+        own.iter().skip(1).map(|node| (place(node) - place(own[0])).norm()).fold(f64::INFINITY, f64::min);
+    if is_of_shell(&own.first()?.node) && moved.norm() < DIRECTORS * apart * turned.norm() {
+        return Some(format!("vibration of directors of {}", listed.join(", ")));
+    }
     let line = span.try_normalize(0.0).map(|line| line.abs());
     let words = match line {
         Some(line) if is_turning && along(&turned, &line) => "torsion".to_owned(),
@@ -69,6 +76,11 @@ fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>) -> Option<String>
 /// Whether a node is one of a part.
 fn is_of(node: &str, part: &str) -> bool {
     node.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with(['@', '.']))
+}
+
+/// Whether a node of a part has a name as those of shells: `part@u,v`, or `part@number`; that of beams is `part@s`.
+fn is_of_shell(node: &str) -> bool {
+    node.rsplit_once('@').is_some_and(|(_, place)| place.contains(',') || !place.contains('.'))
 }
 
 fn along(vector: &Vector3, direction: &Vector3) -> bool {
@@ -100,6 +112,22 @@ mod tests {
         let complex = |own: [f64; 3]| own.map(Complex64::from);
         let (displacement, rotation) = (complex(displacement), complex(rotation));
         NodeShape { node: name.to_owned(), position: [0.0, 0.0, z], displacement, rotation }
+    }
+
+    #[test]
+    fn rotations_of_the_nodes_of_a_shell_alone_are_named() {
+        let shape = |names: [&str; 3]| names.map(|name| node(name, 0.1, [1e-4, 0.0, 0.0], [0.0, 1.0, 0.0]));
+        let named = |names: [&str; 3]| {
+            let mut shape = shape(names);
+            shape.iter_mut().zip([0.0, 0.5, 1.0]).for_each(|(node, z)| node.position[2] = z);
+            super::names(&[shape.to_vec()], &[BTreeMap::from([("film".to_owned(), 1.0)])])
+        };
+        assert_eq!(
+            named(["film@0.0,0.0", "film@0.5,0.0", "film@1.0,0.0"]),
+            ["1st vibration of directors of `film`"]
+        );
+        assert_eq!(named(["film@1", "film@2", "film@3"]), ["1st vibration of directors of `film`"]);
+        assert_eq!(named(["film.start", "film@0.5000", "film.end"]), ["1st bending of `film` along x"]);
     }
 
     #[test]
