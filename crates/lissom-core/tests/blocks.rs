@@ -162,7 +162,10 @@ fn beams<const N: usize>() {
                         });
                         let stiffness = numbers.matrix();
                         let damping = if damped(k) { 0.1 } else { 0.0 };
-                        Beam::<N>::new(nodes, offsets, &natural, |_| SectionLaw { stiffness, damping })
+                        Beam::<N>::new(nodes, offsets, &natural, |_| SectionLaw {
+                            damping,
+                            ..SectionLaw::elastic(stiffness)
+                        })
                     })
                     .collect();
                 compare(&elements, &at);

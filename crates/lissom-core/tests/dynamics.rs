@@ -185,7 +185,7 @@ fn multipliers_of_the_energy_decaying_scheme_stay_smooth() {
 }
 
 fn law(stiffness: [f64; 6]) -> SectionLaw {
-    SectionLaw { stiffness: Matrix6::from_diagonal(&Vector6::from_row_slice(&stiffness)), damping: 0.0 }
+    SectionLaw::elastic(Matrix6::from_diagonal(&Vector6::from_row_slice(&stiffness)))
 }
 
 fn straight(s: f64, length: f64) -> Motion {
@@ -219,7 +219,7 @@ fn cantilever_rolls_up_to_a_circle() {
             order: 3,
             frame: &|s| straight(s, length),
             law: &|_| law([1770e3, 1770e3, 1770e3, 8.16e3, bending, 215e3]),
-            mass: &|_| Matrix6::identity(),
+            mass: &|_, _| Matrix6::identity(),
             ends: [None, None],
         },
     );
@@ -266,7 +266,7 @@ fn rope(turn: &Motion, elements: usize) -> (System, State) {
             order: 3,
             frame: &|s| *turn * straight(s, 1.0),
             law: &|_| law(stiffness),
-            mass: &|_| Matrix6::from_diagonal(&Vector6::from_row_slice(&mass)),
+            mass: &|_, _| Matrix6::from_diagonal(&Vector6::from_row_slice(&mass)),
             ends: [None, None],
         },
     );

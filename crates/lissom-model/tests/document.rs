@@ -122,7 +122,7 @@ fn everything_is_what_its_file_says() {
     let document = read("everything.toml");
     let taper = document.beam("taper").unwrap();
     assert_eq!(taper.stations.len(), 3);
-    let at = |s| taper.properties(&document, s).unwrap().stiffness[(0, 0)];
+    let at = |s| taper.properties(&document, s, 1.0).unwrap().stiffness[(0, 0)];
     let of = |name: &str| document.section(name).unwrap().properties.stiffness[(0, 0)];
     assert_eq!(at(0.0), of("round"));
     assert!((at(0.2) - 0.5 * (of("round") + of("two"))).abs() < 1e-9 * of("two"));

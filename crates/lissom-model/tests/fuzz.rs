@@ -28,7 +28,7 @@ fn answer(text: &str, overrides: &[(String, String)]) {
     match Document::parse_with(text, "fuzz.toml", &support::registry(), overrides) {
         Ok(document) => {
             for beam in &document.beams {
-                assert!(beam.line.length().is_finite() && beam.properties(&document, 0.5).is_some());
+                assert!(beam.line.length().is_finite() && beam.properties(&document, 0.5, 1.0).is_some());
                 assert!(beam.frame(0.5).iter().all(|entry| entry.is_finite()));
             }
         }

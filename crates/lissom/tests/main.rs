@@ -21,5 +21,6 @@ mod statics;
 mod study;
 mod superelements;
 mod support;
+mod temperature;
 mod units;
 mod vibrations;

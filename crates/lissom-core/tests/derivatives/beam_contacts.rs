@@ -68,8 +68,8 @@ fn model(
         elements: 1,
         order,
         frame: &frame,
-        law: &|_| SectionLaw { stiffness: 1e-3 * Matrix6::identity(), damping: 0.0 },
-        mass: &|_| 0.1 * Matrix6::identity(),
+        law: &|_| SectionLaw::elastic(1e-3 * Matrix6::identity()),
+        mass: &|_, _| 0.1 * Matrix6::identity(),
         ends: [None, Some(end)],
     };
     let (contribution, line) = beam_line(builder.model(), &description);

@@ -195,6 +195,7 @@ fn beam<const N: usize>(damping: f64, offsets: bool, random: &mut Random) -> (Sy
     builder.add_element(Beam::<N>::new(nodes, offset, &sections, |xi| SectionLaw {
         stiffness: stiffness * (1.0 + 0.3 * xi),
         damping,
+        free: Vector6::zeros(),
     }));
     builder.build(0.0).expect("valid")
 }

@@ -6,7 +6,7 @@ use lissom_core::elements::inertia::{Gravity, Inertia};
 use lissom_core::flexible::beam::{Beam, SectionLaw};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_core::system::Builder;
-use lissom_motion::{Matrix6, Motion, Vector3};
+use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
 use crate::derivatives::configuration::{Configuration, Random};
 
@@ -60,6 +60,7 @@ fn beams<const N: usize>(random: &mut Random) {
             Beam::<N>::new(nodes, [offset; N], sections, |xi| SectionLaw {
                 stiffness: stiffness * (factor + 0.3 * xi),
                 damping,
+                free: Vector6::zeros(),
             })
         };
     // The ground is node 0.

@@ -60,8 +60,15 @@ fn model(
     let elements =
         elements.map(|own| lissom_mesh::Element { shape: MeshShape::Quadrilateral4, nodes: own.to_vec() });
     let mesh = MeshedPart { positions: grid, elements: elements.to_vec(), ..MeshedPart::default() };
-    let ply =
-        Ply { thickness: 1e-3, angle: 0.0, young: [1e-3; 2], poisson: 0.2, shear: [1e-3; 3], density: 1.0 };
+    let ply = Ply {
+        thickness: 1e-3,
+        angle: 0.0,
+        young: [1e-3; 2],
+        poisson: 0.2,
+        shear: [1e-3; 3],
+        density: 1.0,
+        initial: [0.0; 3],
+    };
     let (contribution, surface) = shell_surface(
         builder.model(),
         &SurfaceDescription {

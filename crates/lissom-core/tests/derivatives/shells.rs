@@ -36,6 +36,7 @@ fn shell(random: &mut Random) -> (System, State, Shell) {
         poisson: 0.25,
         shear: [0.6, 0.5, 0.4],
         density: 1.0,
+        initial: [0.0; 3],
     };
     let law = ShellLaw::laminate(&[ply, Ply { angle: -0.9, ..ply }], 0.07);
     let shell = Shell::new(nodes, &frames, &normals, None, ShellLaw { drilling: 0.05, ..law });
@@ -177,4 +178,24 @@ fn a_mass_distribution_has_one_mass_matrix() {
     let expected = 0.5 * rates.dot(&(&matrix * &rates));
     let found = element.energy(&at).kinetic;
     assert!((found - expected).abs() < 1e-13 * expected.abs().max(1.0), "{found}, {expected}");
+}
+
+/// Free strains that are the same everywhere are those at every point of a flat element of any shape.
+#[test]
+fn free_strains_are_uniform_in_a_flat_element() {
+    let places = [[0.0, 0.0, 0.0], [1.1, 0.1, 0.0], [1.3, 0.9, 0.0], [-0.1, 0.8, 0.0]].map(Vector3::from);
+    let mut builder = Builder::new();
+    let frames = places.map(Motion::translation);
+    let nodes = std::array::from_fn(|i| builder.add_node(&format!("node {i}"), frames[i], Freedoms::Full));
+    let ply = Ply { initial: [0.1, -0.05, 0.02], ..Ply::isotropic(0.2, 3.0, 0.3, 1.0) };
+    let law = ShellLaw::laminate(&[ply, Ply::isotropic(0.1, 2.0, 0.1, 1.0)], 0.07);
+    let free = law.free;
+    let shell = Shell::new(nodes, &frames, &[Vector3::z(); 4], None, law);
+    let (_, state) = builder.build(0.0).expect("valid");
+    for place in [(0.0, 0.0), (0.7, -0.3), (-1.0, 1.0)] {
+        let strains = shell.strains_at(&state.kinematics, place);
+        for (k, free) in free.iter().enumerate() {
+            assert!((strains[k] + free).abs() < 1e-15, "{strains:?}, {free:?}");
+        }
+    }
 }

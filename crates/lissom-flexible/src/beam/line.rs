@@ -70,8 +70,8 @@ pub struct BeamLineDescription<'a> {
     pub frame: &'a dyn Fn(f64) -> Motion,
     /// Elastic law of the section.
     pub law: &'a dyn Fn(f64) -> SectionLaw,
-    /// Mass matrix per length of the section [kg/m, kg, kg m].
-    pub mass: &'a dyn Fn(f64) -> Matrix6,
+    /// Mass matrix per length of the section [kg/m, kg, kg m], where it changes at once on the side of the second s.
+    pub mass: &'a dyn Fn(f64, f64) -> Matrix6,
     /// Nodes of other parts to which the ends are fixed, instead of nodes of their own.
     pub ends: [Option<NodeId>; 2],
 }
@@ -159,7 +159,7 @@ fn build<const N: usize>(model: &InitialModel, line: &BeamLineDescription<'_>) -
         );
         for (i, &(xi, weight)) in rule.iter().enumerate() {
             let k = first + i;
-            let mass = (weight * beam.length_per_xi(xi)) * (line.mass)(places[k]);
+            let mass = (weight * beam.length_per_xi(xi)) * (line.mass)(places[k], along(0.0));
             let adjoint = offsets[k].inverse().adjoint();
             contribution.add_inertia(nodes[k], adjoint.transpose() * mass * adjoint);
         }

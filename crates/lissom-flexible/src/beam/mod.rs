@@ -50,6 +50,15 @@ pub struct SectionLaw {
     pub stiffness: Matrix6,
     /// Stiffness-proportional damping: forces are `stiffness (ε + damping ε̇)` [s].
     pub damping: f64,
+    /// Strains without forces, as of a change of temperature [-, 1/m].
+    pub free: Vector6,
+}
+
+impl SectionLaw {
+    /// A law without damping and free strains.
+    pub fn elastic(stiffness: Matrix6) -> Self {
+        Self { stiffness, damping: 0.0, free: Vector6::zeros() }
+    }
 }
 
 /// Constants of one Gauss point.
@@ -61,7 +70,7 @@ pub(super) struct Station<const N: usize> {
     /// Weight times length per ξ [m].
     pub(super) weight: f64,
     pub(super) law: SectionLaw,
-    /// f₀ of the stress-free state.
+    /// f₀ of the state without forces.
     pub(super) natural: Vector6,
 }
 
@@ -98,12 +107,13 @@ impl<const N: usize> Beam<N> {
                 let (shape, slope) = lagrange::<N>(xi);
                 let twist = tangent_times(&combine(&shape, &relative), &combine(&slope, &relative));
                 let length = twist.fixed_rows::<3>(0).norm();
+                let law = law(xi);
                 Station {
                     shape,
                     slope: slope.map(|value| value / length),
                     weight: weight * length,
-                    law: law(xi),
-                    natural: twist / length,
+                    natural: twist / length + law.free,
+                    law,
                 }
             })
             .collect();

@@ -53,7 +53,7 @@ pub struct Shell {
 }
 
 impl Shell {
-    /// A shell element between `nodes`, stress-free with them at `frames`. `directors` are the normals of the surface at its nodes in global
+    /// A shell element between `nodes`, stress-free with them at `frames`, except for free strains of its law. `directors` are the normals of the surface at its nodes in global
     /// axes, `direction` is projected on the surface to be the first local axis.
     pub fn new(
         nodes: [NodeId; NODES],
@@ -73,7 +73,9 @@ impl Shell {
         let jacobians = GAUSS_POINTS.map(|(r, s)| reference.axes(r, s).jacobian);
         let numbers = Numbers::new(&stiffness, &triads, &jacobians);
         let poses = frames.each_ref().map(Pose::from);
-        let natural = Deformed::at(&numbers, &poses).raw_strains();
+        let mut natural = Deformed::at(&numbers, &poses).raw_strains();
+        let free = reference.natural_strains(&law.free);
+        natural.iter_mut().zip(free).for_each(|(sum, value)| *sum += value);
         Self { nodes, numbers: numbers.with_natural(&natural), reference, law }
     }
 
@@ -86,7 +88,7 @@ impl Shell {
         self.nodes.map(|node| Pose::from(&at.nodes[node].frame))
     }
 
-    /// Strains ε11, ε22, 2 ε12 [-], κ11, κ22, 2 κ12 [1/m], 2 ε13, 2 ε23 [-] at r, s ∈ [-1, 1] in the local axes.
+    /// Strains ε11, ε22, 2 ε12 [-], κ11, κ22, 2 κ12 [1/m], 2 ε13, 2 ε23 [-] at r, s ∈ [-1, 1] in the local axes, beyond the free ones.
     pub fn strains_at(&self, at: &Kinematics, (r, s): (f64, f64)) -> [f64; 8] {
         let natural = Deformed::at(&self.numbers, &self.frames(at)).strains(&self.numbers);
         let axes = self.reference.axes(r, s);

@@ -3,7 +3,7 @@
 use lissom_motion::Vector3;
 use nalgebra::{Matrix2, Vector2};
 
-use super::quadrilateral::{CORNERS, bilinear};
+use super::quadrilateral::{CORNERS, STRAINS, bilinear};
 
 /// Sine of the angle to the normal, 0.1 degrees, below which a direction has no projection on the surface.
 const PARALLEL: f64 = 1.745e-3;
@@ -59,6 +59,23 @@ impl Reference {
         let jacobian =
             Matrix2::new(along.dot(&first), along.dot(&second), across.dot(&first), across.dot(&second));
         LocalAxes { first, normal, jacobian, area }
+    }
+
+    /// The natural strains, see `strains`, of local strains ε11, ε22, 2 ε12, κ11, κ22, 2 κ12 that are the same everywhere.
+    pub(super) fn natural_strains(&self, local: &[f64; 6]) -> [f64; STRAINS] {
+        let mut strains = [0.0; STRAINS];
+        // The middles of the edges and the centre, with the natural coordinates of the strain there.
+        let places =
+            [(0.0, -1.0, 0, 0), (0.0, 1.0, 0, 0), (-1.0, 0.0, 1, 1), (1.0, 0.0, 1, 1), (0.0, 0.0, 0, 1)];
+        for (k, (r, s, i, j)) in places.into_iter().enumerate() {
+            let jacobian = self.axes(r, s).jacobian;
+            for part in 0..2 {
+                let [first, second, shear] = [0, 1, 2].map(|l| local[3 * part + l]);
+                let tensor = Matrix2::new(first, 0.5 * shear, 0.5 * shear, second);
+                strains[5 * part + k] = (jacobian.row(i) * tensor).dot(&jacobian.row(j));
+            }
+        }
+        strains
     }
 
     /// Unit normal at each node.

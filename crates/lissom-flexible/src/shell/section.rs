@@ -1,6 +1,7 @@
 //! Elastic law of a shell's section: from strains of the reference surface to forces and moments per length.
 
-use nalgebra::{Matrix2, Matrix3, SMatrix};
+use lissom_motion::Vector3;
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
 
 /// 8 x 8 stiffness of a section.
 pub type Matrix8 = SMatrix<f64, 8, 8>;
@@ -11,6 +12,8 @@ pub struct ShellLaw {
     /// Forces and moments per length N11, N22, N12 [N/m], M11, M22, M12 [N], Q13, Q23 [N/m] for the strains ε11, ε22, 2 ε12,
     /// κ11, κ22, 2 κ12, 2 ε13, 2 ε23. Symmetric; transverse shear is not coupled with the others.
     pub stiffness: Matrix8,
+    /// Strains ε11, ε22, 2 ε12, κ11, κ22, 2 κ12 without forces and moments, as of a change of temperature.
+    pub free: [f64; 6],
     /// Stiffness of the rotation about the normal relative to the surface [N/m]: a small fraction of that of shear in the plane.
     pub drilling: f64,
 }
@@ -40,13 +43,23 @@ pub struct Ply {
     pub shear: [f64; 3],
     /// Density [kg/m³].
     pub density: f64,
+    /// Stresses 11, 22, 12 without strain in the local axes of the shell [Pa].
+    pub initial: [f64; 3],
 }
 
 impl Ply {
     /// A layer of an isotropic material.
     pub fn isotropic(thickness: f64, young: f64, poisson: f64, density: f64) -> Self {
         let shear = young / (2.0 * (1.0 + poisson));
-        Self { thickness, angle: 0.0, young: [young; 2], poisson, shear: [shear; 3], density }
+        Self {
+            thickness,
+            angle: 0.0,
+            young: [young; 2],
+            poisson,
+            shear: [shear; 3],
+            density,
+            initial: [0.0; 3],
+        }
     }
 
     /// Plane stresses 11, 22, 12 for the strains 11, 22, 2 12 in the local axes of the shell [Pa].
@@ -65,10 +78,24 @@ impl Ply {
             0.0,
             self.shear[0],
         );
-        let (s, c) = self.angle.sin_cos();
-        let to_fibres =
-            Matrix3::new(c * c, s * s, c * s, s * s, c * c, -c * s, -2.0 * c * s, 2.0 * c * s, c * c - s * s);
+        let to_fibres = self.to_fibres();
         to_fibres.transpose() * own * to_fibres
+    }
+
+    /// From strains 11, 22, 2 12 in the local axes of the shell to those along and across the fibres.
+    fn to_fibres(&self) -> Matrix3<f64> {
+        let (s, c) = self.angle.sin_cos();
+        Matrix3::new(c * c, s * s, c * s, s * s, c * c, -c * s, -2.0 * c * s, 2.0 * c * s, c * c - s * s)
+    }
+
+    /// The layer where strains along and across the fibres are free [-], on top of its stresses without strain.
+    #[must_use]
+    pub fn expanded(mut self, [along, across]: [f64; 2]) -> Self {
+        // The angle of the opposite sign turns back.
+        let free = Self { angle: -self.angle, ..self }.to_fibres() * Vector3::new(along, across, 0.0);
+        let stress = self.in_plane() * free;
+        self.initial.iter_mut().zip(&stress).for_each(|(sum, value)| *sum -= value);
+        self
     }
 
     /// Transverse shear stresses 13, 23 for the strains 2 13, 2 23 [Pa].
@@ -91,6 +118,7 @@ impl ShellLaw {
             own += block;
         };
         let (mut shear, mut in_plane) = (Matrix2::zeros(), 0.0);
+        let mut initial = SVector::<f64, 6>::zeros();
         for ply in plies {
             let above = below + ply.thickness;
             let own = ply.in_plane();
@@ -101,10 +129,16 @@ impl ShellLaw {
             add(3, 3, &(own * ((above.powi(3) - below.powi(3)) / 3.0)));
             shear += ply.transverse() * (SHEAR_CORRECTION * ply.thickness);
             in_plane += own[(2, 2)] * ply.thickness;
+            for (k, stress) in ply.initial.iter().enumerate() {
+                initial[k] += stress * ply.thickness;
+                initial[3 + k] += 0.5 * stress * (above * above - below * below);
+            }
             below = above;
         }
         stiffness.fixed_view_mut::<2, 2>(6, 6).copy_from(&shear);
-        Self { stiffness, drilling: DRILLING_SHARE * in_plane }
+        let free = stiffness.fixed_view::<6, 6>(0, 0).into_owned().cholesky();
+        let free = free.map_or([0.0; 6], |factors| (-factors.solve(&initial)).into());
+        Self { stiffness, free, drilling: DRILLING_SHARE * in_plane }
     }
 
     /// The strains' stiffness with drilling as ninth.

@@ -112,7 +112,8 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
             let node = carriers[k];
             (node, frames[own[node]].rotation.apply_inverse(&carried[k]))
         });
-        let mut matrix = mass::area_matrix(&references[index]);
+        let mut matrix =
+            mass::area_matrix(&references[index], mass::share_of_parabolas(&references[index], &section.law));
         matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry *= section.mass);
         let lumped = std::array::from_fn(|i| section.mass * shares[i]);
         let gravity = model.gravity.clone();

@@ -2,7 +2,7 @@
 
 use lissom_motion::{Matrix3, Vector3};
 
-/// A deformation. All is NaN where the solid is turned inside out, J ≤ 0, so that no iteration converges there and the step is repeated
+/// A deformation relative to the state without stress. All is NaN where the solid is turned inside out, J ≤ 0, so that no iteration converges there and the step is repeated
 /// with half its size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deformation {
@@ -17,12 +17,15 @@ pub(super) struct Deformation {
 }
 
 impl Deformation {
+    /// With slopes over the stretch 1 + a of a free strain a: F = (1 + H)/(1 + a), of which `shrinking`, a/(1 + a), is missing.
     pub(super) fn new<const NODES: usize>(
         displacements: &[Vector3; NODES],
         slopes: &[Vector3; NODES],
+        shrinking: f64,
     ) -> Self {
         let displacement: Matrix3 =
             displacements.iter().zip(slopes).map(|(shift, slope)| shift * slope.transpose()).sum();
+        let displacement = displacement - Matrix3::from_diagonal_element(shrinking);
         let gradient = Matrix3::identity() + displacement;
         let determinant = gradient.determinant();
         let nowhere = Matrix3::repeat(f64::NAN);

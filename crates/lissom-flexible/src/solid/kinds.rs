@@ -22,7 +22,7 @@ pub trait SolidElement: Send + Sync {
     /// Its nodes, in the order of Abaqus.
     fn node_ids(&self) -> &[NodeId];
 
-    /// Its volume at rest [m³].
+    /// Its volume at rest, before its free strains [m³].
     fn volume(&self) -> f64;
 
     /// Its strain energy [J].
@@ -38,7 +38,8 @@ impl<const NODES: usize, const POINTS: usize> SolidElement for Solid<NODES, POIN
     }
 
     fn volume(&self) -> f64 {
-        self.reference.volume
+        let Reference { volumes, shrinking, .. } = &*self.reference;
+        volumes.iter().zip(shrinking).map(|(volume, shrinking)| volume * (1.0 - shrinking).powi(3)).sum()
     }
 
     fn strain(&self, at: &Kinematics) -> f64 {
@@ -52,26 +53,28 @@ impl<const NODES: usize, const POINTS: usize> SolidElement for Solid<NODES, POIN
 }
 
 impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
-    /// An element of a kind with so many nodes and points of quadrature, stress-free with its nodes at `positions` [m].
+    /// An element of a kind with so many nodes and points of quadrature, stress-free with its nodes at `positions` [m] except for the
+    /// strains `free` at them, the same in all directions.
     ///
     /// # Errors
     /// If it is inverted somewhere.
     pub fn new(
         kind: &'static SolidKind,
         nodes: [NodeId; NODES],
-        positions: &[Vector3; NODES],
+        (positions, free): (&[Vector3; NODES], &[f64; NODES]),
         law: SolidLaw,
     ) -> Result<Self, Inverted> {
-        Ok(Self { kind, nodes, reference: Reference::new(kind, positions)?.into(), law })
+        Ok(Self { kind, nodes, reference: Reference::new(kind, positions, free)?.into(), law })
     }
 
     fn of(
         kind: &'static SolidKind,
         nodes: &[NodeId],
-        positions: &[Vector3],
+        (positions, free): (&[Vector3], &dyn Fn(usize) -> f64),
         law: SolidLaw,
     ) -> Result<Self, Inverted> {
-        Self::new(kind, std::array::from_fn(|i| nodes[i]), &std::array::from_fn(|i| positions[i]), law)
+        let places = std::array::from_fn(|i| positions[i]);
+        Self::new(kind, std::array::from_fn(|i| nodes[i]), (&places, &std::array::from_fn(free)), law)
     }
 }
 
@@ -100,28 +103,29 @@ macro_rules! for_kind {
 fn shared<const NODES: usize, const POINTS: usize>(
     kind: &'static SolidKind,
     nodes: &[NodeId],
-    positions: &[Vector3],
+    reference: (&[Vector3], &dyn Fn(usize) -> f64),
     law: SolidLaw,
 ) -> Result<Arc<dyn SolidElement>, Inverted> {
-    Ok(Arc::new(Solid::<NODES, POINTS>::of(kind, nodes, positions, law)?))
+    Ok(Arc::new(Solid::<NODES, POINTS>::of(kind, nodes, reference, law)?))
 }
 
-/// The element of a kind by its name; none if there is no such kind, or if it is inverted.
+/// The element of a kind by its name, with positions of its nodes and free strains there; none if there is no such kind, or if it is
+/// inverted.
 pub fn element(
     kind: &str,
     nodes: &[NodeId],
-    positions: &[Vector3],
+    reference: (&[Vector3], &dyn Fn(usize) -> f64),
     law: SolidLaw,
 ) -> Option<Arc<dyn SolidElement>> {
     let kind = *SOLID_KINDS.iter().find(|own| own.word == kind && own.node_count() == nodes.len())?;
-    for_kind!(kind, shared(nodes, positions, law)).ok()
+    for_kind!(kind, shared(nodes, reference, law)).ok()
 }
 
 /// The element of a shape, added to a contribution with its mass: lumped at its nodes, and the difference.
 pub(super) fn added(
     shape: MeshShape,
     into: (Contribution, &InitialModel),
-    places: (&[NodeId], &[Vector3]),
+    places: (&[NodeId], &[Vector3], &dyn Fn(usize) -> f64),
     material: &SolidMaterial,
 ) -> Result<(Contribution, Arc<dyn SolidElement>), Inverted> {
     let kind = shape.solid_kind().map_or(SOLID_KINDS[0], |(kind, _)| kind);
@@ -131,10 +135,10 @@ pub(super) fn added(
 fn with_mass<const NODES: usize, const POINTS: usize>(
     kind: &'static SolidKind,
     (mut contribution, model): (Contribution, &InitialModel),
-    (nodes, positions): (&[NodeId], &[Vector3]),
+    (nodes, positions, free): (&[NodeId], &[Vector3], &dyn Fn(usize) -> f64),
     material: &SolidMaterial,
 ) -> Result<(Contribution, Arc<dyn SolidElement>), Inverted> {
-    let element = Solid::<NODES, POINTS>::of(kind, nodes, positions, material.law)?;
+    let element = Solid::<NODES, POINTS>::of(kind, nodes, (positions, free), material.law)?;
     let mut matrix = mass_matrix(kind, &element.reference.positions)?;
     matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry *= material.density);
     let lumped = lumped(&matrix);

@@ -80,8 +80,8 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
 
     fn deformed_to(&self, positions: &[Vector3; NODES]) -> Deformed<POINTS> {
         let displacements = self.displacements(positions);
-        let points =
-            self.reference.gradients.each_ref().map(|slopes| Deformation::new(&displacements, slopes));
+        let Reference { gradients, shrinking, .. } = &*self.reference;
+        let points = std::array::from_fn(|p| Deformation::new(&displacements, &gradients[p], shrinking[p]));
         let mean = self.law.bulk_of_mean() * self.mean_dilatation(&points);
         Deformed { points, mean }
     }

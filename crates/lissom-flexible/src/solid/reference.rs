@@ -8,31 +8,50 @@ use lissom_motion::Vector3;
 pub(super) struct Reference<const NODES: usize, const POINTS: usize> {
     /// Positions of the nodes [m].
     pub positions: [Vector3; NODES],
-    /// Derivatives of the functions with respect to the position, at each point of quadrature [1/m].
+    /// Derivatives of the functions with respect to the position, at each point of quadrature, over the stretch of the free strain [1/m].
     pub gradients: [[Vector3; NODES]; POINTS],
     /// Volume of each point [m³].
     pub volumes: [f64; POINTS],
     /// The volume [m³].
     pub volume: f64,
+    /// Strain without stress at each node, the same in all directions, as of a change of temperature.
+    pub free: [f64; NODES],
+    /// What it takes from the stretch at each point: free strain over one more than that.
+    pub shrinking: [f64; POINTS],
 }
 
 impl<const NODES: usize, const POINTS: usize> Reference<NODES, POINTS> {
-    /// Of an element of a kind with so many nodes and points of quadrature.
-    pub(super) fn new(kind: &SolidKind, positions: &[Vector3; NODES]) -> Result<Box<Self>, Inverted> {
+    /// Of an element of a kind with so many nodes and points of quadrature, at these positions before its free strains.
+    pub(super) fn new(
+        kind: &SolidKind,
+        positions: &[Vector3; NODES],
+        free: &[f64; NODES],
+    ) -> Result<Box<Self>, Inverted> {
         let mut reference = Box::new(Self {
             positions: *positions,
             gradients: [[Vector3::zeros(); NODES]; POINTS],
             volumes: [0.0; POINTS],
             volume: 0.0,
+            free: *free,
+            shrinking: [0.0; POINTS],
         });
         for k in 0..POINTS {
             let (place, weight) = (kind.points.0)(k);
-            let (own, volume) = Functions::at(kind.functions, place).gradients(positions)?;
-            reference.gradients[k] = own;
-            reference.volumes[k] = weight * volume;
+            let functions = Functions::at(kind.functions, place);
+            let (own, volume) = functions.gradients(positions)?;
+            let (stretch, shrinking) = reference.stretch(&functions);
+            reference.gradients[k] = own.map(|slope| slope / stretch);
+            reference.volumes[k] = weight * volume * stretch.powi(3);
+            reference.shrinking[k] = shrinking;
         }
         reference.volume = reference.volumes.iter().sum();
         Ok(reference)
+    }
+
+    /// The stretch of the free strain at a place, and what it takes from the stretch there.
+    pub(super) fn stretch(&self, functions: &Functions<NODES>) -> (f64, f64) {
+        let free: f64 = functions.values.iter().zip(&self.free).map(|(value, own)| value * own).sum();
+        (1.0 + free, free / (1.0 + free))
     }
 }
 

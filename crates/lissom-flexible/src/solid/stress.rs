@@ -31,7 +31,8 @@ impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
         let Ok((slopes, _)) = functions.gradients(&self.reference.positions) else {
             return CauchyStress::repeat(f64::NAN);
         };
-        let point = Deformation::new(displacements, &slopes);
+        let (stretch, shrinking) = self.reference.stretch(functions);
+        let point = Deformation::new(displacements, &slopes.map(|slope| slope / stretch), shrinking);
         self.law.first_stress(&point, mean) * point.gradient.transpose() / point.determinant
     }
 

@@ -19,6 +19,8 @@ pub struct VolumeDescription<'a> {
     pub names: &'a dyn Fn(usize) -> String,
     /// What they consist of.
     pub material: SolidMaterial,
+    /// Strain without stress at each node.
+    pub free: &'a dyn Fn(usize) -> f64,
 }
 
 /// A body of solid elements as built.
@@ -47,7 +49,9 @@ pub fn solid_volume(
     for Element { shape, nodes: own } in &volume.mesh.elements {
         let ids: Vec<NodeId> = own.iter().map(|&node| nodes[node]).collect();
         let positions = volume.mesh.positions_of(own);
-        let (with, element) = added(*shape, (contribution, model), (&ids, &positions), &volume.material)?;
+        let free = |i: usize| (volume.free)(own[i]);
+        let (with, element) =
+            added(*shape, (contribution, model), (&ids, &positions, &free), &volume.material)?;
         contribution = with;
         elements.push(element);
     }

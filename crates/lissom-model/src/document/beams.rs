@@ -7,12 +7,15 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::entries::each;
 use super::places::PlaceOrNode;
-use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station, Superelement, interface_name};
+use super::temperatures::check_expansion;
+use super::{
+    Beam, Body, DistributedForce, NodeReference, PointMass, Section, Station, Superelement, interface_name,
+};
 use crate::expression::Expression;
 use crate::format::keys::Shape;
 use crate::line::Line;
 use crate::parts::context::Context;
-use crate::reading::mesh_nodes::position_of;
+use crate::reading::mesh_nodes::{nodes_of, position_of};
 use crate::reading::reader::Reader;
 use crate::text::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
@@ -29,6 +32,8 @@ struct Draft {
     up: Option<Located<Vector3>>,
     twist: Expression,
     distributed: Vec<DistributedForce>,
+    temperature: Expression,
+    temperature_slope: [f64; 2],
     /// The frame in which it is written.
     frame: Motion,
 }
@@ -47,28 +52,42 @@ pub(super) fn beams(
     context: &Context<'_>,
     bodies: &[Body],
     point_masses: &[PointMass],
+    sections: &[Section],
     (meshes, superelements): (&Meshes, &[Superelement]),
 ) -> Vec<Beam> {
     let drafts: Vec<Draft> = each(context, "beams", |reader, name| {
         let form = form(reader, name);
         let stations = stations(reader);
         let (elements, order, up) = (reader.count("elements"), reader.count("order"), reader.vector("up"));
-        let twist = match reader.node("twist") {
+        let profile = |key: &str| match reader.node(key) {
             None => Some(Expression::of_constant(0.0)),
-            Some(node) => reader.context.profile(node, &reader.words("twist")),
+            Some(node) => reader.context.profile(node, &reader.words(key)),
+        };
+        let (twist, temperature) = (profile("twist"), profile("temperature"));
+        let slope = match reader.node("temperature_slope") {
+            None => Some([0.0; 2]),
+            Some(node) => reader.context.numbers::<2>(node, &reader.words("temperature_slope")),
         };
         let distributed = super::distributed::read(reader);
         let line_span = reader.node("curve").or(reader.node("to")).map_or(reader.name, |node| node.span);
+        let stations = stations?;
+        let named = |own: &&Section| stations.iter().any(|at| at.section.value == own.name.value);
+        let expands = sections.iter().filter(named).any(|own| own.properties.expansion != 0.0);
+        for key in ["temperature", "temperature_slope"] {
+            check_expansion(reader, key, expands)?;
+        }
         Some(Draft {
             name: Located::new(name.to_owned(), reader.name),
             form: form?,
             line_span,
-            stations: stations?,
+            stations,
             elements: elements?,
             order: order?.value,
             up,
             twist: twist?,
             distributed: distributed?,
+            temperature: temperature?,
+            temperature_slope: slope?,
             frame: reader.context.frame(reader.scope)?,
         })
     });
@@ -157,13 +176,26 @@ fn stations(reader: &Reader<'_, '_>) -> Option<Vec<Station>> {
     };
     let read: Vec<Option<(Station, Span)>> = list.iter().map(|entry| station(reader, entry, &what)).collect();
     let read: Vec<(Station, Span)> = read.into_iter().collect::<Option<_>>()?;
-    let help = "the first is at 0, the last at 1, and each is behind the one before";
-    for pair in read.windows(2) {
-        if let [(before, _), (after, place)] = pair
-            && after.at <= before.at
-        {
-            let message = format!("{what} must ascend, but {} comes after {}", after.at, before.at);
+    let help = "the first is at 0, the last at 1, each is behind the one before, or two are at one place where the section changes at once";
+    let elements = reader.count("elements")?.value as f64;
+    let mut begun = 0.0;
+    for (index, (own, place)) in read.iter().enumerate().skip(1) {
+        let before = read[index - 1].0.at;
+        if own.at < before || (own.at == before && (own.at == begun || own.at == 1.0)) {
+            let message = format!("{what} must ascend, but {} comes after {before}", own.at);
             return context.fail(*place, message, help);
+        }
+        if own.at == before {
+            begun = own.at;
+            let boundary = own.at * elements;
+            if (boundary - boundary.round()).abs() > 1e-9 {
+                let message = format!(
+                    "{what} change at once at {}, which is inside of one of its {elements} elements",
+                    own.at
+                );
+                let help = "choose `elements` so that one ends there: for 0.25 a multiple of 4";
+                return context.fail(*place, message, help);
+            }
         }
     }
     let ends = read.first().map(|(first, _)| first.at).zip(read.last().map(|(last, _)| last.at));
@@ -259,7 +291,11 @@ fn line(
             NodeReference::Interface { superelement, interface } => {
                 fixed.get(&interface_name(superelement, interface)).copied()
             }
-            NodeReference::Mesh { part, place } => position_of(meshes.get(part)?, place),
+            NodeReference::Mesh { part, place } => {
+                let mesh = meshes.get(part)?;
+                nodes_of(mesh, node).map_err(|problem| context.report(problem)).ok()?;
+                position_of(mesh, place)
+            }
             NodeReference::Beam { beam, fraction } => {
                 lines.get(beam)?.as_ref().map(|line| line.position(*fraction))
             }
@@ -378,5 +414,7 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
         up,
         twist: draft.twist,
         distributed: draft.distributed,
+        temperature: draft.temperature,
+        temperature_slope: draft.temperature_slope,
     })
 }

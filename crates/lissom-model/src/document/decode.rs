@@ -90,7 +90,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let of_solids = elastic_solids.iter().map(|own| (own.name.value.clone(), Arc::clone(&own.mesh)));
     let meshes = of_shells.chain(of_solids).collect();
     let superelements = superelements::superelements(context);
-    let beams = beams::beams(context, &bodies, &point_masses, (&meshes, &superelements));
+    let beams = beams::beams(context, &bodies, &point_masses, &sections, (&meshes, &superelements));
     let places = connections::places((&beams, &superelements), meshes, &bodies, &point_masses);
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);

@@ -11,6 +11,7 @@ use lissom_motion::{Motion, Vector3};
 use super::Material;
 use super::entries::each;
 use super::meshes::{divisions, file, formula, one_of, sets};
+use super::temperatures::{self, check_expansion};
 use crate::expression::Formula;
 use crate::format::keys::{Key, Shape, optional, required};
 use crate::format::part_tables::placed_in;
@@ -37,6 +38,8 @@ pub struct ElasticSolid {
     pub material: SolidMaterial,
     /// Pressures on its faces.
     pub pressures: Vec<FacePressure>,
+    /// Strain without stress at each node; none if there is none.
+    pub free_strains: Vec<f64>,
 }
 
 /// Pressure on the faces of a set of nodes.
@@ -122,25 +125,30 @@ pub(super) fn keys() -> Vec<Key> {
             "",
             "named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`",
         ),
+        temperatures::key(),
     ]
 }
 
 pub(super) fn elastic_solids(context: &Context<'_>, materials: &[Material]) -> Vec<ElasticSolid> {
     each(context, "solids", |reader, name| {
         let (mesh, material) = (mesh_of(reader), material(reader, materials));
-        let (mut mesh, material) = (mesh?, material?);
+        let (mut mesh, (material, expansion)) = (mesh?, material?);
         mesh.find_faces();
         check(reader, mesh.connection_fault())?;
         joined(reader, &mut mesh)?;
         check(reader, mesh.volume_fault())?;
         sets(reader, &mut mesh)?;
         let pressures = pressures(reader, name, &mesh)?;
+        check_expansion(reader, "temperature", expansion != 0.0)?;
+        let temperatures = temperatures::temperatures(reader, &mesh)?;
+        let free_strains = temperatures.into_iter().map(|value| expansion * value).collect();
         let name = Located::new(name.to_owned(), reader.name);
-        Some(ElasticSolid { name, mesh: Arc::new(mesh), material, pressures })
+        Some(ElasticSolid { name, mesh: Arc::new(mesh), material, pressures, free_strains })
     })
 }
 
-fn material(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<SolidMaterial> {
+/// What it consists of, and its strain per change of temperature.
+fn material(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<(SolidMaterial, f64)> {
     let name = reader.name_in("material")?;
     let material = materials.iter().find(|known| known.name.value == name.value)?.constants;
     let chosen = reader.choice("model")?.value;
@@ -187,7 +195,8 @@ fn material(reader: &Reader<'_, '_>, materials: &[Material]) -> Option<SolidMate
         }
         (false, None) => {}
     }
-    Some(SolidMaterial { law, density: material.density, damping: reader.number("damping")?.value })
+    let damping = reader.number("damping")?.value;
+    Some((SolidMaterial { law, density: material.density, damping }, material.expansion))
 }
 
 /// Elements of a block: systems of a few million unknowns need more memory than there is.

@@ -20,10 +20,16 @@ const SOFTEST: f64 = 30.0;
 pub(super) fn materials(context: &Context<'_>) -> Vec<Material> {
     each(context, "materials", |reader, name| {
         let (young, density) = (reader.number("E"), reader.number("density"));
+        let expansion = reader.number("expansion");
         let shear = shear_modulus(reader, young.as_ref().map(|young| young.value));
         let (young, density) = (young?, density?);
         warn_of_units(reader, &young, density.value);
-        let constants = Isotropic { young: young.value, shear: shear?, density: density.value };
+        let constants = Isotropic {
+            young: young.value,
+            shear: shear?,
+            density: density.value,
+            expansion: expansion?.value,
+        };
         Some(Material { name: Located::new(name.to_owned(), reader.name), constants })
     })
 }
@@ -155,7 +161,8 @@ fn general(reader: &Reader<'_, '_>) -> Option<SectionProperties> {
         warn_of_moments(reader, node, &mass?);
         mass
     });
-    Some(SectionProperties { stiffness: stiffness?, mass: mass?, damping: 0.0 })
+    let expansion = reader.number("expansion");
+    Some(SectionProperties { stiffness: stiffness?, mass: mass?, damping: 0.0, expansion: expansion?.value })
 }
 
 /// Moments about three perpendicular axes are sums over the same matter, `J11 = Σ m (y² + z²)`, so that none exceeds the sum of

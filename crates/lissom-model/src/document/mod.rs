@@ -30,6 +30,7 @@ mod signals;
 mod solids;
 mod superelements;
 pub(crate) mod tables;
+mod temperatures;
 mod unloaded;
 
 use std::borrow::Cow;
@@ -40,7 +41,7 @@ use lissom_contact::forms::PlacedSolid;
 use lissom_flexible::superelement::ReducedMatrices;
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::Parameters;
-use lissom_motion::{Matrix3, Vector3};
+use lissom_motion::{Matrix3, Vector3, Vector6};
 use lissom_system::schemes::ContactSolution;
 use nalgebra::DMatrix;
 
@@ -278,7 +279,7 @@ pub struct Station {
 pub struct Beam {
     /// Name.
     pub name: Located<String>,
-    /// Sections from 0 to 1, linear between; a single one for a uniform beam.
+    /// Sections from 0 to 1, linear between, two at one place where it changes at once; a single one for a uniform beam.
     pub stations: Vec<Station>,
     /// Reference line.
     pub line: Line,
@@ -298,6 +299,10 @@ pub struct Beam {
     pub twist: Expression,
     /// Forces per length.
     pub distributed: Vec<DistributedForce>,
+    /// Temperature above that of the state without stress over `s` [K].
+    pub temperature: Expression,
+    /// Its change along axes 2 and 3 [K/m].
+    pub temperature_slope: [f64; 2],
 }
 
 impl Beam {
@@ -306,12 +311,23 @@ impl Beam {
         self.line.frame(s, &self.up, self.twist.jet(s).value)
     }
 
-    /// Section properties at the fraction `s`, from the sections of `document`.
-    pub fn properties(&self, document: &Document, s: f64) -> Option<SectionProperties> {
+    /// Strains without forces at the fraction `s` of a section that expands by so much per change of temperature [-, 1/m].
+    pub fn free_strains(&self, s: f64, expansion: f64) -> Vector6 {
+        let [along_2, along_3] = self.temperature_slope;
+        // A fibre at x2, x3 has the strain ε1 + x3 κ2 - x2 κ3.
+        expansion * Vector6::new(self.temperature.jet(s).value, 0.0, 0.0, 0.0, along_3, -along_2)
+    }
+
+    /// Section properties at the fraction `s`, from the sections of `document`: where they change at once those on the side of `towards`.
+    pub fn properties(&self, document: &Document, s: f64, towards: f64) -> Option<SectionProperties> {
         let of =
             |station: &Station| document.section(&station.section.value).map(|section| section.properties);
-        let next =
-            self.stations.partition_point(|station| station.at <= s).clamp(1, self.stations.len().max(1));
+        // Places of nodes are rounded.
+        let is_passed = |at: f64| if (at - s).abs() < 1e-9 { towards >= s } else { at < s };
+        let next = self
+            .stations
+            .partition_point(|station| is_passed(station.at))
+            .clamp(1, self.stations.len().max(1));
         let before = self.stations.get(next - 1)?;
         match self.stations.get(next) {
             None => of(before),

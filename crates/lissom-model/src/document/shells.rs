@@ -9,6 +9,7 @@ use lissom_motion::{Motion, Vector3};
 use super::Material;
 use super::entries::each;
 use super::meshes::{divisions, file, formula, one_of, sets};
+use super::temperatures::{self, check_expansion};
 use crate::expression::Formula;
 use crate::format::keys::{Key, Shape, optional, required};
 use crate::format::part_tables::placed_in;
@@ -36,6 +37,10 @@ pub struct Shell {
     pub damping: f64,
     /// Loads per area.
     pub loads: Vec<AreaLoad>,
+    /// Temperature of each node above that of the state without stress [K]; none if it is everywhere that.
+    pub temperatures: Vec<f64>,
+    /// Forces per length 11, 22, 12 in the local axes before any strain [N/m].
+    pub prestress: [f64; 3],
 }
 
 /// A layer of a shell.
@@ -47,6 +52,8 @@ pub struct Layer {
     pub span: Span,
     /// All the rest; its thickness is that at the first element.
     pub ply: Ply,
+    /// Strain along and across the fibres per change of temperature [1/K].
+    pub expansion: [f64; 2],
 }
 
 /// A load per area of a shell.
@@ -65,8 +72,16 @@ pub struct AreaLoad {
 impl Shell {
     /// Layers of an element.
     pub fn plies(&self, element: usize) -> Vec<Ply> {
-        let middle = self.mesh.middle(element);
-        self.layers.iter().map(|layer| Ply { thickness: layer.thickness_at(middle), ..layer.ply }).collect()
+        let (middle, nodes) = (self.mesh.middle(element), &self.mesh.elements[element].nodes);
+        let temperature = |&node: &usize| self.temperatures.get(node).copied().unwrap_or(0.0);
+        let temperature = nodes.iter().map(temperature).sum::<f64>() / nodes.len() as f64;
+        let whole = self.thickness(element);
+        let ply = |layer: &Layer| {
+            let initial = self.prestress.map(|force| force / whole);
+            let ply = Ply { thickness: layer.thickness_at(middle), initial, ..layer.ply };
+            ply.expanded(layer.expansion.map(|expansion| expansion * temperature))
+        };
+        self.layers.iter().map(ply).collect()
     }
 
     /// Whole thickness at an element [m].
@@ -176,6 +191,13 @@ pub(super) fn keys() -> Vec<Key> {
             "",
             "named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`",
         ),
+        temperatures::key(),
+        optional(
+            "prestress",
+            Shape::Vector,
+            "N/m",
+            "of a taut membrane: forces per length 11, 22 and 12 in the local axes before any strain",
+        ),
     ]
 }
 
@@ -203,6 +225,10 @@ impl Shape {
                 "transverse shear modulus across the fibres; default `G12`",
             ),
             optional("density", Self::Positive, "kg/m³", "mass density"),
+            optional("expansion1", Self::Number, "1/K", "strain along the fibres per change of temperature")
+                .or_number(0.0),
+            optional("expansion2", Self::Number, "1/K", "strain across the fibres per change of temperature")
+                .or_number(0.0),
         ]
     }
 }
@@ -224,8 +250,16 @@ pub(super) fn shells(context: &Context<'_>, materials: &[Material]) -> Vec<Shell
             mesh.join();
         }
         sets(reader, &mut mesh)?;
+        let expands = layers.iter().any(|layer| layer.expansion != [0.0; 2]);
+        check_expansion(reader, "temperature", expands)?;
+        let prestress = match reader.node("prestress") {
+            Some(_) => reader.vector("prestress")?.value.into(),
+            None => [0.0; 3],
+        };
         let shell = Shell {
             name: Located::new(name.to_owned(), reader.name),
+            temperatures: temperatures::temperatures(reader, &mesh)?,
+            prestress,
             mesh: Arc::new(mesh),
             layers,
             direction,
@@ -360,7 +394,7 @@ fn layer_of_file(mesh: &Mesh, span: Span) -> Option<Layer> {
     let material = mesh.materials.iter().find(|own| Some(&own.name) == section.material.as_ref())?;
     let ply = Ply::isotropic(1.0, material.young?, material.poisson?, material.density?);
     let thickness = Formula::of_constant(section.thickness?);
-    is_whole.then_some(Layer { thickness, span, ply })
+    is_whole.then_some(Layer { thickness, span, ply, expansion: [0.0; 2] })
 }
 
 /// The layers, by the keys or else as in the file of the mesh.
@@ -385,7 +419,7 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer
                 return context.fail(reader.name, message, "add `material = \"…\"`, an entry of [materials]");
             };
             let ply = Ply::isotropic(1.0, own.young, own.poisson(), own.density);
-            Some(vec![Layer { thickness, span, ply }])
+            Some(vec![Layer { thickness, span, ply, expansion: [own.expansion; 2] }])
         }
         (None, Some(node)) => {
             let what = reader.words("plies");
@@ -399,7 +433,7 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer
                 let angle = own.number("angle")?.value;
                 let material = material(&own)?;
                 let modulus = |key: &str| own.node(key).map(|_| own.number(key).map(|number| number.value));
-                let ply = match (modulus("E1"), material.or(common)) {
+                let (ply, expansion) = match (modulus("E1"), material.or(common)) {
                     (Some(along), _) => {
                         let needed = |key: &str| match modulus(key) {
                             Some(value) => value,
@@ -411,17 +445,20 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer
                         };
                         let shear = needed("G12")?;
                         let or_shear = |key: &str| modulus(key).unwrap_or(Some(shear));
-                        Ply {
+                        let ply = Ply {
                             thickness: 1.0,
                             angle,
                             young: [along?, needed("E2")?],
                             poisson: needed("nu12")?,
                             shear: [shear, or_shear("G13")?, or_shear("G23")?],
                             density: needed("density")?,
-                        }
+                            initial: [0.0; 3],
+                        };
+                        (ply, [own.number("expansion1")?.value, own.number("expansion2")?.value])
                     }
                     (None, Some(own)) => {
-                        Ply { angle, ..Ply::isotropic(1.0, own.young, own.poisson(), own.density) }
+                        let ply = Ply::isotropic(1.0, own.young, own.poisson(), own.density);
+                        (Ply { angle, ..ply }, [own.expansion; 2])
                     }
                     (None, None) => {
                         return context.fail(
@@ -439,7 +476,7 @@ fn layers(reader: &Reader<'_, '_>, materials: &[Material], of_file: Option<Layer
                         "nu12 is the contraction across the fibres under tension along them",
                     );
                 }
-                Some(Layer { thickness, span, ply })
+                Some(Layer { thickness, span, ply, expansion })
             };
             if list.is_empty() {
                 return context.fail(node.span, format!("{what} is empty"), "list at least one layer");

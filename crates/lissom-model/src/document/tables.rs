@@ -77,6 +77,7 @@ fn material() -> Vec<Key> {
         optional("nu", Shape::Number, "", "Poisson's ratio; either it or `G` is required"),
         optional("G", Shape::Positive, "Pa", "shear modulus; either it or `nu` is required"),
         required("density", Shape::Positive, "kg/m³", "mass density"),
+        optional("expansion", Shape::Number, "1/K", "strain per change of temperature").or_number(0.0),
     ]
 }
 
@@ -103,6 +104,7 @@ fn sections() -> Vec<Variant> {
             "kg/m, kg m",
             "6 x 6, or { per_length, inertia = [J11, J22, J33], center = [c2, c3] }",
         ),
+        optional("expansion", Shape::Number, "1/K", "strain per change of temperature").or_number(0.0),
     ];
     let shapes = KINDS.iter().map(|kind| form(kind.name, kind.summary, (kind.keys)()));
     shapes.chain([form(GENERAL, "Specified by its stiffness and mass matrices.", general)]).collect()
@@ -157,6 +159,18 @@ fn beam() -> Vec<Key> {
             Shape::Profile,
             "rad",
             "rotation about the tangent, a number or an expression of s",
+        ),
+        optional(
+            "temperature",
+            Shape::Profile,
+            "K",
+            "above that of the state without stress, over the whole analysis: a number or an expression of s",
+        ),
+        optional(
+            "temperature_slope",
+            Shape::Pair,
+            "K/m",
+            "change of the temperature along axes 2 and 3 of the section: it bends the beam",
         ),
     ]
 }

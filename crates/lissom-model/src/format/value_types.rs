@@ -90,6 +90,8 @@ pub(crate) enum Shape {
     VolumeDivisions,
     /// A number, or an expression of `u` and `v`.
     Thickness,
+    /// A number, or an expression of `x`, `y` and `z`.
+    Field,
     /// A number, or an expression of `u`, `v` and `t`.
     AreaSize,
     /// Three of them, in global axes; those of the part inside of one.
@@ -326,6 +328,9 @@ impl Shape {
             }
             Self::Thickness => {
                 row("a number or an expression of `u` and `v`", number(), Fixed("Expression"), "Number")
+            }
+            Self::Field => {
+                row("a number or an expression of `x`, `y` and `z`", number(), Fixed("Expression"), "Number")
             }
             Self::AreaSize => {
                 row("a number or an expression of `u`, `v` and `t`", number(), Fixed("Expression"), "Number")

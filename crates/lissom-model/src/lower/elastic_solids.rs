@@ -31,6 +31,7 @@ pub(super) fn add(
             mesh: &solid.mesh,
             names: &|node| node_name(name, &solid.mesh, node),
             material: solid.material,
+            free: &|node| solid.free_strains.get(node).copied().unwrap_or(0.0),
         };
         let (contribution, volume) = match solid_volume(builder.model(), &description) {
             Ok(built) => built,

@@ -171,7 +171,7 @@ fn add_beam(
         }
     };
     let ends = [end(&beam.shared_start), end(&beam.shared_end)];
-    let properties = |s: f64| beam.properties(document, s);
+    let properties = |s: f64, towards: f64| beam.properties(document, s, towards);
     let (contribution, line) = beam_line(
         builder.model(),
         &BeamLineDescription {
@@ -180,11 +180,13 @@ fn add_beam(
             order: beam.order,
             frame: &|s| Motion::new(Rotation::from_matrix(&beam.frame(s)), beam.line.position(s)),
             law: &|s| {
-                properties(s).map_or(SectionLaw { stiffness: Matrix6::zeros(), damping: 0.0 }, |section| {
-                    SectionLaw { stiffness: section.stiffness, damping: section.damping }
+                properties(s, s).map_or(SectionLaw::elastic(Matrix6::zeros()), |section| SectionLaw {
+                    stiffness: section.stiffness,
+                    damping: section.damping,
+                    free: beam.free_strains(s, section.expansion),
                 })
             },
-            mass: &|s| properties(s).map_or_else(Matrix6::zeros, |section| section.mass),
+            mass: &|s, towards| properties(s, towards).map_or_else(Matrix6::zeros, |section| section.mass),
             ends,
         },
     );

@@ -166,13 +166,16 @@ impl Corner {
 
     /// Stresses 11, 22, 12 at the top, in the middle and at the bottom, in the axes of the node.
     fn stresses(&self, strains: &[f64; 8]) -> [[f64; 3]; 3] {
-        let Self { plies, offset, .. } = self;
+        let (Self { plies, offset, .. }, free) = (self, &self.element.law().free);
         let half = 0.5 * plies.iter().map(|ply| ply.thickness).sum::<f64>();
         let places = [(plies.len() - 1, half), (plies.len() / 2, 0.0), (0, -half)];
         places.map(|(ply, height)| {
             let (stiffness, height) = (plies[ply].in_plane(), offset + height);
-            let stretched = |j: usize| strains[j] + height * strains[3 + j];
-            self.tensor(std::array::from_fn(|k| (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum()))
+            let whole = |j: usize| strains[j] + free[j];
+            let stretched = |j: usize| whole(j) + height * whole(3 + j);
+            self.tensor(std::array::from_fn(|k| {
+                plies[ply].initial[k] + (0..3).map(|j| stiffness[(k, j)] * stretched(j)).sum::<f64>()
+            }))
         })
     }
 }

@@ -44,6 +44,9 @@ pub struct ElasticSolid {
     /// Part of the shear modulus in the second term of rubber [Pa].
     #[serde(default)]
     pub second: f64,
+    /// Strain without stress at each node; none if there is none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub free_strains: Vec<f64>,
     /// Volume in the stress-free state [m³].
     pub volume: f64,
     /// Mass [kg].
@@ -113,6 +116,7 @@ pub(super) fn elastic_solids(document: &Document, places: &Places<'_>) -> Vec<El
             shear: solid.material.law.shear,
             bulk: solid.material.law.bulk,
             second: solid.material.law.second,
+            free_strains: solid.free_strains.clone(),
             volume,
             mass: solid.material.density * volume,
         })

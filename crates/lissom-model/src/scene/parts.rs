@@ -189,7 +189,7 @@ pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {
             let stiffness = section.properties.stiffness.as_slice().to_vec();
             Some(Station { at: station.at, section: station.section.value.clone(), outline, stiffness })
         };
-        let start = beam.properties(document, 0.0)?;
+        let start = beam.properties(document, 0.0, 1.0)?;
         Some(Beam {
             name: beam.name.value.clone(),
             nodes: line.nodes.clone(),

@@ -32,6 +32,9 @@ pub struct Shell {
     /// Stiffness of each element by rows, 8 x 8: N11, N22, N12 [N/m], M11, M22, M12 [N], Q13, Q23 [N/m] for ε11, ε22, 2 ε12, κ11, κ22,
     /// 2 κ12, 2 ε13, 2 ε23; one for all if it is the same.
     pub stiffness: Vec<Vec<f64>>,
+    /// Strains ε11, ε22, 2 ε12, κ11, κ22, 2 κ12 of each element without forces; one for all if it is the same.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub free_strains: Vec<[f64; 6]>,
     /// Whether it consists of one layer, so that stresses are linear over the thickness.
     pub is_homogeneous: bool,
     /// Area of the surface in the stress-free state [m²].
@@ -62,6 +65,10 @@ pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
             directors.clear();
         }
         let stiffness = elements.iter().map(|element| element.law().stiffness.as_slice().to_vec());
+        let mut free_strains = once(elements.iter().map(|element| element.law().free).collect());
+        if free_strains == [[0.0; 6]] {
+            free_strains.clear();
+        }
         let mass = |(element, area): (usize, f64)| {
             let per_area: f64 = shell.plies(element).iter().map(|ply| ply.density * ply.thickness).sum();
             per_area * area
@@ -77,6 +84,7 @@ pub(super) fn shells(document: &Document, places: &Places<'_>) -> Vec<Shell> {
             directors,
             directions: once(elements.iter().map(|element| element.first_direction().into()).collect()),
             stiffness: once(stiffness.collect()),
+            free_strains,
             is_homogeneous: shell.layers.len() == 1,
             area: areas.clone().sum(),
             mass: areas.enumerate().map(mass).sum(),

@@ -32,6 +32,8 @@ pub struct Isotropic {
     pub shear: f64,
     /// Density [kg/m³].
     pub density: f64,
+    /// Strain per change of temperature [1/K].
+    pub expansion: f64,
 }
 
 impl Isotropic {
@@ -76,6 +78,8 @@ pub struct SectionProperties {
     pub mass: Matrix6,
     /// Damping proportional to the stiffness [s].
     pub damping: f64,
+    /// Strain per change of temperature [1/K].
+    pub expansion: f64,
 }
 
 impl SectionProperties {
@@ -86,7 +90,7 @@ impl SectionProperties {
             Shear::Theory(theory) => shape.shear_coefficients(theory, material.poisson()),
             Shear::Given(k2, k3) => [k2, k3],
         };
-        let Isotropic { young, shear, density } = *material;
+        let Isotropic { young, shear, density, expansion } = *material;
         let diagonal = [
             young * area,
             k2 * shear * area,
@@ -101,6 +105,7 @@ impl SectionProperties {
             stiffness: Matrix6::from_diagonal(&Vector6::from_column_slice(&diagonal)),
             mass: mass_matrix(density * area, &inertia, [0.0, 0.0]),
             damping: 0.0,
+            expansion,
         }
     }
 
@@ -111,6 +116,7 @@ impl SectionProperties {
             stiffness: self.stiffness * a + other.stiffness * b,
             mass: self.mass * a + other.mass * b,
             damping: self.damping * a + other.damping * b,
+            expansion: self.expansion * a + other.expansion * b,
         }
     }
 }
@@ -132,7 +138,8 @@ pub(crate) fn mass_matrix(per_length: f64, inertia: &Matrix3, center: [f64; 2]) 
 mod tests {
     use super::*;
 
-    const ALUMINIUM: Isotropic = Isotropic { young: 73e9, shear: 73e9 / 2.6, density: 2680.0 };
+    const ALUMINIUM: Isotropic =
+        Isotropic { young: 73e9, shear: 73e9 / 2.6, density: 2680.0, expansion: 23e-6 };
 
     #[test]
     fn the_benchmark_beam_has_its_published_section() {

@@ -27,6 +27,8 @@ class Beam(Entry):
         force_per_length: in global axes, fixed in direction: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
         section_force_per_length: in the section's axes 1, 2 and 3, with which it rotates: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
         twist: rotation about the tangent, a number or an expression of s [rad]; a number or an expression of `s`, or nothing.
+        temperature: above that of the state without stress, over the whole analysis: a number or an expression of s [K]; a number or an expression of `s`, or nothing.
+        temperature_slope: change of the temperature along axes 2 and 3 of the section: it bends the beam [K/m]; two numbers, or nothing.
     """
 
     _table: ClassVar[str] = "beams"
@@ -44,6 +46,8 @@ class Beam(Entry):
     force_per_length: Vector | None = None
     section_force_per_length: Vector | None = None
     twist: Number | None = None
+    temperature: Number | None = None
+    temperature_slope: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -70,6 +74,8 @@ class Shell(Entry):
         pressure_on_top: force per area on the face of the normal, against the normal, as `top` in `pressure` of a solid: an expression of u, v, t and the present place x, y, z [Pa]; a number or an expression of `u`, `v` and `t`, or nothing.
         force_per_area: in global axes, fixed in direction: three numbers or expressions of u, v and t [Pa]; three expressions of `u`, `v` and `t`, or nothing.
         sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
+        temperature: above that of the state without stress, over the whole analysis: a number or an expression of x, y and z at rest, in the axes of the part [K]; a number or an expression of `x`, `y` and `z`, or nothing.
+        prestress: of a taut membrane: forces per length 11, 22 and 12 in the local axes before any strain [N/m]; three numbers, or nothing.
     """
 
     _table: ClassVar[str] = "shells"
@@ -93,6 +99,8 @@ class Shell(Entry):
     pressure_on_top: Number | None = None
     force_per_area: Vector | None = None
     sets: Table | None = None
+    temperature: Number | None = None
+    prestress: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -115,6 +123,7 @@ class Solid(Entry):
         damping: damping in proportion to the stiffness; default 0 [s]; a number ≥ 0, or nothing.
         pressure: force per area against the outward normal, which it follows: `{ SET = expression }` of t and of the present place x, y, z [Pa]; a table, or nothing.
         sets: named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`; a table, or nothing.
+        temperature: above that of the state without stress, over the whole analysis: a number or an expression of x, y and z at rest, in the axes of the part [K]; a number or an expression of `x`, `y` and `z`, or nothing.
     """
 
     _table: ClassVar[str] = "solids"
@@ -134,6 +143,7 @@ class Solid(Entry):
     damping: Number | None = None
     pressure: Table | None = None
     sets: Table | None = None
+    temperature: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -18,6 +18,7 @@ class Material(Entry):
         nu: Poisson's ratio; either it or `G` is required; a number, or nothing.
         G: shear modulus; either it or `nu` is required [Pa]; a number > 0, or nothing.
         density: mass density [kg/m³]; a number > 0.
+        expansion: strain per change of temperature; default 0 [1/K]; a number, or nothing.
     """
 
     _table: ClassVar[str] = "materials"
@@ -26,6 +27,7 @@ class Material(Entry):
     nu: Number | None = None
     G: Number | None = None
     density: Number
+    expansion: Number | None = None
 
 
 class Section(Entry):
@@ -104,6 +106,7 @@ class General(Section):
     Args:
         stiffness: 6 x 6 or its diagonal: axial, shear 2, shear 3, torsion, bending 2, bending 3 [N, N m²]; six numbers or a 6 x 6 matrix.
         mass: 6 x 6, or { per_length, inertia = [J11, J22, J33], center = [c2, c3] } [kg/m, kg m]; six numbers, a 6 x 6 matrix, or a table.
+        expansion: strain per change of temperature; default 0 [1/K]; a number, or nothing.
         damping: damping in proportion to the stiffness [s]; a number ≥ 0, or nothing.
     """
 
@@ -111,4 +114,5 @@ class General(Section):
 
     stiffness: Vector | list[Vector]
     mass: Vector | list[Vector] | Table
+    expansion: Number | None = None
     damping: Number | None = None

@@ -37,6 +37,10 @@ entry! {
     section_force_per_length: [Expression; 3] = "section_force_per_length";
     /// Rotation about the tangent, a number or an expression of s \[rad\].
     twist: Function = "twist";
+    /// Above that of the state without stress, over the whole analysis: a number or an expression of s \[K\].
+    temperature: Function = "temperature";
+    /// Change of the temperature along axes 2 and 3 of the section: it bends the beam \[K/m\].
+    temperature_slope: [f64; 2] = "temperature_slope";
 }
 
 entry! {
@@ -73,6 +77,8 @@ entry! {
     pressure_on_top: Expression = "pressure_on_top";
     /// In global axes, fixed in direction: three numbers or expressions of u, v and t \[Pa\].
     force_per_area: [Expression; 3] = "force_per_area";
+    /// Of a taut membrane: forces per length 11, 22 and 12 in the local axes before any strain \[N/m\].
+    prestress: [f64; 3] = "prestress";
 }
 
 entry! {
@@ -192,4 +198,6 @@ keys! {
     scale: f64 = "scale";
     /// Damping in proportion to the stiffness; default 0 \[s\].
     damping: f64 = "damping";
+    /// Above that of the state without stress, over the whole analysis: a number or an expression of x, y and z at rest, in the axes of the part \[K\].
+    temperature: Expression = "temperature";
 }

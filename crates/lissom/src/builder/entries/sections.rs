@@ -79,6 +79,12 @@ nested! {
 }
 
 keys! {
+    [Material, General]
+    /// Strain per change of temperature; default 0 \[1/K\].
+    expansion: f64 = "expansion";
+}
+
+keys! {
     [Rectangle, Circle, Tube]
     /// Shear coefficient: one or two numbers (along 2 and 3), "cowper" (default) or "renton".
     shear: Shear = "shear";

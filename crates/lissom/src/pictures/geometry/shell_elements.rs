@@ -51,7 +51,8 @@ impl ShellElements {
                 std::array::from_fn(|i| frames[i].rotation.apply(&Vector3::from(carried[i])));
             let numbers = of(&shell.stiffness, index);
             let stiffness = Matrix8::from_fn(|i, j| numbers.get(8 * i + j).copied().unwrap_or(0.0));
-            let law = ShellLaw { stiffness, drilling: DRILLING_SHARE * stiffness[(2, 2)] };
+            let free = of(&shell.free_strains, index);
+            let law = ShellLaw { stiffness, free, drilling: DRILLING_SHARE * stiffness[(2, 2)] };
             let direction = Vector3::from(of(&shell.directions, index));
             Element::new(corners.map(|node| shell.nodes[node]), &frames, &directors, Some(direction), law)
         };

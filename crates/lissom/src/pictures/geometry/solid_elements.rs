@@ -22,7 +22,8 @@ impl SolidElements {
         let built = |(kind, nodes): (&String, &Vec<usize>)| {
             let ids: Vec<NodeId> = nodes.iter().map(|&node| solid.nodes[node]).collect();
             let places: Vec<Vector3> = nodes.iter().map(|&node| solid.positions[node].into()).collect();
-            Some((nodes.clone(), element(kind, &ids, &places, law)?))
+            let free = |i: usize| solid.free_strains.get(nodes[i]).copied().unwrap_or(0.0);
+            Some((nodes.clone(), element(kind, &ids, (&places, &free), law)?))
         };
         let cells = solid.cells.iter().flat_map(|(kind, cells)| cells.iter().map(move |own| (kind, own)));
         Self { elements: cells.filter_map(built).collect(), count: solid.nodes.len() }
