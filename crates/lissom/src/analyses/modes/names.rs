@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use lissom_core::linearized::NodeShape;
-use lissom_motion::Vector3;
+use lissom_motion::{Matrix3, Vector3};
 use num_complex::Complex64;
 
 /// Parts with at least this fraction of the largest kinetic energy are named, at most so many.
@@ -13,19 +13,26 @@ const NAMED: (f64, usize) = (0.5, 3);
 const ARM: f64 = 0.1;
 /// Rotations of nodes of a shell with smaller displacements than this fraction of their arc over an element are of directors alone.
 const DIRECTORS: f64 = 0.05;
+/// Sections across the longest axis of a shell or solid.
+const SECTIONS: usize = 8;
 /// A direction is along an axis if this fraction of it is.
 const ALONG: f64 = 0.9;
 
-/// Names of modes in the order of their frequencies: of each the shape at all nodes, and the share of each part in its kinetic energy.
-pub(super) fn names(shapes: &[Vec<NodeShape>], shares: &[BTreeMap<String, f64>]) -> Vec<String> {
+/// Names of modes in the order of their frequencies: of each the shape at all nodes, the share of each part in its kinetic energy, and
+/// whether it is a rigid motion.
+pub(super) fn names(
+    shapes: &[Vec<NodeShape>],
+    shares: &[BTreeMap<String, f64>],
+    is_rigid: impl Fn(usize) -> bool,
+) -> Vec<String> {
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    let named = |(shape, shares): (&Vec<NodeShape>, &BTreeMap<String, f64>)| {
-        let words = motion(shape, shares)?;
+    let named = |(index, (shape, shares)): (usize, (&Vec<NodeShape>, &BTreeMap<String, f64>))| {
+        let words = motion(shape, shares, is_rigid(index))?;
         let count = counts.entry(words.clone()).or_default();
         *count += 1;
         Some(format!("{} {words}", ordinal(*count)))
     };
-    shapes.iter().zip(shares).map(named).map(Option::unwrap_or_default).collect()
+    shapes.iter().zip(shares).enumerate().map(named).map(Option::unwrap_or_default).collect()
 }
 
 fn ordinal(number: usize) -> String {
@@ -39,12 +46,15 @@ fn ordinal(number: usize) -> String {
 }
 
 /// Which parts move, and how the one with the largest energy does; none if no part has any.
-fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>) -> Option<String> {
+fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>, is_rigid: bool) -> Option<String> {
     let mut parts: Vec<(&String, f64)> = shares.iter().map(|(part, share)| (part, *share)).collect();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let (first, most) = *parts.first().filter(|(_, share)| *share > 0.0)?;
     let listed = parts.iter().take_while(|(_, share)| *share >= NAMED.0 * most).take(NAMED.1);
     let listed: Vec<String> = listed.map(|(part, _)| format!("`{part}`")).collect();
+    if is_rigid {
+        return Some(format!("rigid motion of {}", listed.join(", ")));
+    }
     let own: Vec<&NodeShape> = shape.iter().filter(|node| is_of(&node.node, first)).collect();
     let largest = |vector: fn(&NodeShape) -> Vector3| {
         own.iter().map(|node| vector(node)).max_by(|a, b| a.norm().total_cmp(&b.norm()))
@@ -57,11 +67,13 @@ fn motion(shape: &[NodeShape], shares: &BTreeMap<String, f64>) -> Option<String>
     let is_turning = ARM * size * turned.norm() > moved.norm();
     let apart =
         own.iter().skip(1).map(|node| (place(node) - place(own[0])).norm()).fold(f64::INFINITY, f64::min);
-    if is_of_shell(&own.first()?.node) && moved.norm() < DIRECTORS * apart * turned.norm() {
+    if is_of_mesh(&own.first()?.node) && moved.norm() < DIRECTORS * apart * turned.norm() {
         return Some(format!("vibration of directors of {}", listed.join(", ")));
     }
     let line = span.try_normalize(0.0).map(|line| line.abs());
+    let is_twisted = is_of_mesh(&own.first()?.node) && is_twisted(&own);
     let words = match line {
+        _ if is_twisted => "torsion".to_owned(),
         Some(line) if is_turning && along(&turned, &line) => "torsion".to_owned(),
         Some(line) if along(&moved, &line) => "extension".to_owned(),
         Some(_) => format!("bending along {}", axis(&moved)),
@@ -78,8 +90,38 @@ fn is_of(node: &str, part: &str) -> bool {
     node.strip_prefix(part).is_some_and(|rest| rest.is_empty() || rest.starts_with(['@', '.']))
 }
 
-/// Whether a node of a part has a name as those of shells: `part@u,v`, or `part@number`; that of beams is `part@s`.
-fn is_of_shell(node: &str) -> bool {
+/// Whether sections across the longest axis of a part rotate about it more than they move otherwise.
+fn is_twisted(own: &[&NodeShape]) -> bool {
+    let place = |node: &NodeShape| Vector3::from(node.position);
+    let moved = |node: &NodeShape| Vector3::from(node.displacement.map(|value| value.re));
+    let mean = own.iter().map(|node| place(node)).sum::<Vector3>() / own.len() as f64;
+    let spread: Matrix3 =
+        own.iter().map(|node| (place(node) - mean) * (place(node) - mean).transpose()).sum();
+    let axes = spread.symmetric_eigen();
+    let axis: Vector3 = axes.eigenvectors.column(axes.eigenvalues.imax()).into();
+    let along = |node: &NodeShape| (place(node) - mean).dot(&axis);
+    let most = own.iter().map(|node| along(node).abs()).fold(0.0, f64::max);
+    let mut sections = vec![Vec::new(); SECTIONS];
+    for node in own {
+        let fraction = 0.5 * (along(node) / most + 1.0);
+        sections[((fraction * SECTIONS as f64) as usize).min(SECTIONS - 1)].push(*node);
+    }
+    let (mut turned, mut shifted) = (0.0, 0.0);
+    for nodes in sections.iter().filter(|nodes| nodes.len() > 1) {
+        let count = nodes.len() as f64;
+        let middle = nodes.iter().map(|node| place(node)).sum::<Vector3>() / count;
+        let shift = nodes.iter().map(|node| moved(node)).sum::<Vector3>() / count;
+        let arm = |node: &NodeShape| axis.cross(&(place(node) - middle));
+        let square: f64 = nodes.iter().map(|node| arm(node).norm_squared()).sum();
+        let turning: f64 = nodes.iter().map(|node| arm(node).dot(&moved(node))).sum();
+        turned += if square > 0.0 { turning * turning / square } else { 0.0 };
+        shifted += count * shift.norm_squared();
+    }
+    turned > shifted
+}
+
+/// Whether a node of a part has a name as those of shells and solids: `part@u,v`, or `part@number`; that of beams is `part@s`.
+fn is_of_mesh(node: &str) -> bool {
     node.rsplit_once('@').is_some_and(|(_, place)| place.contains(',') || !place.contains('.'))
 }
 
@@ -120,7 +162,7 @@ mod tests {
         let named = |names: [&str; 3]| {
             let mut shape = shape(names);
             shape.iter_mut().zip([0.0, 0.5, 1.0]).for_each(|(node, z)| node.position[2] = z);
-            super::names(&[shape.to_vec()], &[BTreeMap::from([("film".to_owned(), 1.0)])])
+            super::names(&[shape.to_vec()], &[BTreeMap::from([("film".to_owned(), 1.0)])], |_| false)
         };
         assert_eq!(
             named(["film@0.0,0.0", "film@0.5,0.0", "film@1.0,0.0"]),
@@ -128,6 +170,23 @@ mod tests {
         );
         assert_eq!(named(["film@1", "film@2", "film@3"]), ["1st vibration of directors of `film`"]);
         assert_eq!(named(["film.start", "film@0.5000", "film.end"]), ["1st bending of `film` along x"]);
+    }
+
+    /// A plate that is twisted, and one that is bent.
+    #[test]
+    fn torsion_of_plates_is_named() {
+        let plate = |lift: fn(f64, f64) -> f64| {
+            let nodes = (0..27).map(|k| (f64::from(k / 3) / 8.0, f64::from(k % 3) / 8.0));
+            let own = |(x, y)| NodeShape {
+                position: [x, y, 0.0],
+                ..node(&format!("roof@{x},{y}"), 0.0, [0.0, 0.0, lift(x, y - 0.125)], [0.1, 0.1, 0.0])
+            };
+            super::names(&[nodes.map(own).collect()], &[BTreeMap::from([("roof".to_owned(), 1.0)])], |_| {
+                false
+            })
+        };
+        assert_eq!(plate(|x, y| (x - 0.5) * y), ["1st torsion of `roof`"]);
+        assert_eq!(plate(|x, y| (x - 0.5) * (x - 0.5) + 0.1 * y), ["1st bending of `roof` along z"]);
     }
 
     #[test]
@@ -154,7 +213,7 @@ mod tests {
         shares[1] = share(0.5, 0.4);
         shares.push(share(0.1, 0.9));
         assert_eq!(
-            names(&shapes, &shares),
+            names(&shapes, &shares, |_| false),
             [
                 "1st bending of `tower` along x",
                 "1st bending of `tower`, `hub` along y",

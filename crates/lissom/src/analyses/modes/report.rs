@@ -44,7 +44,7 @@ impl ModeReport {
 
     /// The name of each mode, such as "1st bending of `tower` along y".
     pub fn names(&self) -> Vec<String> {
-        names(&self.shapes, &self.shares)
+        names(&self.shapes, &self.shares, |mode| self.modes[mode].kind == ModeKind::Rigid)
     }
 
     /// The table `shapes.csv`: by mode and node its position [m], displacement [m] and rotation [rad] in global axes for unit modal
