@@ -28,6 +28,13 @@ pub enum AnalysisWarning {
         /// The force.
         force: String,
     },
+    /// The modes are those without loads, because a part that can move freely has no equilibrium under them.
+    NoEquilibrium {
+        /// The part.
+        part: String,
+        /// A load on it, in words.
+        load: String,
+    },
     /// The motion at the time of linearisation is not steady.
     Unsteady {
         /// The time [s].
@@ -169,6 +176,12 @@ catalogued! {
             remedy: "use a time of steady motion",
             meaning: "The coefficients of the linear equations change with the motion about which the model is linearised.",
             advice: "Linearise about a state at rest or a steady motion, or simulate in time.",
+        }
+        NoEquilibrium { part => part, load => load } => "free-part-under-load" {
+            cause: "`{part}` can move freely and has no equilibrium under {load}: the state is that of the file without loads",
+            remedy: "",
+            meaning: "The model is linearised about an equilibrium, and loads on a part that nothing connects to the ground accelerate it.",
+            advice: "Connect it to the ground, or remove the loads; `--about undeformed` takes the same state without this warning.",
         }
         AxesAtRest {} => "axes-at-rest" {
             cause: "the coefficients are constant only in axes at rest, with multi-blade coordinates: frequencies are those in these \

@@ -152,13 +152,18 @@ fn modes_that_mean_nothing_have_an_exit_code() {
     assert_eq!(code(&["modes", "bar.toml", "--shift", "-1"], "negative"), 2);
     assert_eq!(code(&["modes", "nothing.toml"], "no such file"), 2);
     assert!(!folder.path().join("out").exists(), "a wrong question leaves no results");
-    // Without its clamp, but with its load, the bar has no equilibrium.
+    // Without its clamp it has no equilibrium under its load, but modes without it; with a hinge and a moment about it, it turns.
     let start = CANTILEVER.find("[joints.root]").unwrap();
     let end = CANTILEVER.find("[loads.tip]").unwrap();
     let free = [&CANTILEVER[..start], &CANTILEVER[end..]]
         .concat()
         .replace("[outputs.root]\nkind = \"reaction\"\nof = \"root\"\n", "");
     let free = free.replace("3*t", "3").replace("kind = \"statics\"\nsteps = 4", "kind = \"modes\"");
+    folder.write("free.toml", &free);
+    assert_eq!(code(&["modes", "free.toml"], "free-part-under-load"), 0);
+    let hinge = "\n[joints.hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"bar.start\"\naxis = \"y\"\n\
+        [loads.turn]\nkind = \"moment\"\non = \"bar.end\"\nvector = [0, 3, 0]\n";
+    let free = free + hinge;
     folder.write("free.toml", &free);
     assert_eq!(code(&["modes", "free.toml"], "error"), 3);
     assert_eq!(summary(&folder.path().join("out/free-modes"))["stopped"], "failed");

@@ -319,8 +319,35 @@ pub(super) fn part_of(node: &NodeReference) -> &str {
     }
 }
 
-/// A part without any connection moves freely: possible in dynamics, but seldom meant; singular in statics.
-fn free_parts(context: &Context<'_>, document: &Document) {
+impl Document {
+    /// Parts that nothing connects to the ground.
+    pub fn free_parts(&self) -> Vec<&Located<String>> {
+        let mut groups = groups(self);
+        let ground = groups.root(GROUND);
+        self.parts().into_iter().filter(|part| groups.root(&part.value) != ground).collect()
+    }
+
+    /// A load on a part that nothing connects to the ground.
+    pub fn load_on_free_part(&self) -> Option<&str> {
+        let free: BTreeSet<&str> = self.free_parts().iter().map(|part| part.value.as_str()).collect();
+        let acts = |load: &&Component| {
+            load.attachment.nodes.iter().any(|own| free.contains(part_of(&own.node.value)))
+        };
+        self.loads.iter().find(acts).map(|load| load.name.value.as_str())
+    }
+
+    fn parts(&self) -> Vec<&Located<String>> {
+        (self.beams.iter().map(|beam| &beam.name))
+            .chain(self.meshes().map(|(name, _)| name))
+            .chain(self.bodies.iter().map(|body| &body.name))
+            .chain(self.point_masses.iter().map(|mass| &mass.name))
+            .chain(self.superelements.iter().map(|element| &element.name))
+            .collect()
+    }
+}
+
+/// Parts that joints, springs, contacts and loads between them connect.
+fn groups(document: &Document) -> Groups<'_> {
     let mut groups = Groups::default();
     for component in document.joints.iter().chain(&document.springs).chain(&document.loads) {
         let Attachment { nodes, beams, .. } = &component.attachment;
@@ -341,12 +368,13 @@ fn free_parts(context: &Context<'_>, document: &Document) {
             groups.join(&beam.name.value, part_of(&shared.value));
         }
     }
-    let parts: Vec<&Located<String>> = (document.beams.iter().map(|beam| &beam.name))
-        .chain(document.meshes().map(|(name, _)| name))
-        .chain(document.bodies.iter().map(|body| &body.name))
-        .chain(document.point_masses.iter().map(|mass| &mass.name))
-        .chain(document.superelements.iter().map(|element| &element.name))
-        .collect();
+    groups
+}
+
+/// A part without any connection moves freely: possible in dynamics, but seldom meant; singular in statics.
+fn free_parts(context: &Context<'_>, document: &Document) {
+    let mut groups = groups(document);
+    let parts = document.parts();
     let statics = matches!(
         document.analysis.kind,
         AnalysisKind::Statics { .. } | AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. }
@@ -371,7 +399,8 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         let free = root != ground;
         if free && statics {
             let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
-            context.fail::<()>(part.span, message, "add a joint or spring that connects it to \"ground\"");
+            let help = "add a joint or spring that connects it to \"ground\"; a clamp of one node carries only what the loads on it lack in balance";
+            context.fail::<()>(part.span, message, help);
         } else if free && sizes.get(&root) == Some(&1) && parts.len() > 1 {
             let problem =
                 Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));

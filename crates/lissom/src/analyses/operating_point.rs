@@ -151,7 +151,7 @@ fn undeformed(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
         &model,
         "undeformed state",
         STILL_BALANCED,
-        "springs or drives exert forces in it: use the static equilibrium",
+        "springs, drives or temperatures exert forces in it: use the static equilibrium",
     )?;
     hand(LinearizationPoint { model: &model, channels: &lowered.channels, warnings: Vec::new() });
     Ok(())
@@ -166,6 +166,15 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
         return Ok(());
     }
     drop(model);
+    if let Some(part) = document.free_parts().first() {
+        let load =
+            document.load_on_free_part().map_or_else(|| "gravity".to_owned(), |load| format!("`{load}`"));
+        let warning = AnalysisWarning::NoEquilibrium { part: part.value.clone(), load };
+        return undeformed(document, &mut |mut reached| {
+            reached.warnings.push(warning.clone());
+            hand(reached);
+        });
+    }
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
     let (system, mut state, doubts) = at_rest(system, state, &settings)?;
     // Instability is reported with the modes themselves.

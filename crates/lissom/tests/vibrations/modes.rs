@@ -553,3 +553,17 @@ fn fewer_modes_than_asked_for_are_reported() {
     assert_eq!(reported(Some(6)), (6, Vec::new()));
     assert_eq!(reported(None), (6, Vec::new()));
 }
+
+/// A free part that a load accelerates has no equilibrium: its modes are those without loads, and the load is named.
+#[test]
+fn a_free_part_under_a_load_has_the_modes_of_the_unloaded_one() {
+    let load = "[loads.turn]\nkind = \"moment\"\non = \"bar.end\"\nvector = [0, 10, 0]\n";
+    let report = find(&beam(4, 3, load), OperatingPoint::Static, 8);
+    let [AnalysisWarning::NoEquilibrium { part, load }] = &report.warnings[..] else {
+        panic!("{:?}", report.warnings)
+    };
+    assert_eq!((part.as_str(), load.as_str()), ("bar", "`turn`"));
+    let unloaded = find(&beam(4, 3, ""), OperatingPoint::Static, 8);
+    assert!(unloaded.warnings.is_empty());
+    assert_eq!(frequencies(&report), frequencies(&unloaded));
+}
