@@ -84,16 +84,27 @@ pub(crate) fn is_stable_like(
     })
 }
 
-/// Whether an equilibrium is stable: no direction that satisfies the constraints decreases the energy. False if a direction does, and if the
-/// signs of the pivots do not determine it, for example because the stiffness derives from no energy.
-pub(crate) fn is_stable(
+/// What the signs of pivots say about an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// No direction that satisfies the constraints decreases the energy.
+    Stable,
+    /// The stiffness derives from no energy.
+    NoEnergy,
+    /// A direction decreases the energy, or the signs do not determine it.
+    Open,
+}
+
+/// Whether an equilibrium is stable.
+pub(crate) fn verdict(
     system: &System,
     state: &State,
     (representative, redundancy): (&Representative, &Redundancy),
-) -> bool {
+) -> Verdict {
     if !is_decided_by_inertia(system, state) {
-        return false;
+        return Verdict::Open;
     }
+    let mut has_energy = true;
     let (structure, count) = (system.structure(), system.layout().coordinate_count());
     let mut shifted = RealShift::new(system, representative);
     // Just below zero, so that unconstrained directions without stiffness are not counted as unstable.
@@ -108,7 +119,13 @@ pub(crate) fn is_stable(
             is_symmetric = has_potential(structure, (values, count), scaled.scale(), &[]);
             potential::symmetrise(&structure.pattern, values, count);
         }
+        // What else is not symmetric is examined with the whole linear model.
+        has_energy = is_symmetric || !system.has_loads_of_motion();
         if is_symmetric { Ok(()) } else { Err(FactorError::NotFinite { unknown: 0 }) }
     });
-    negative == Ok(0) && shifted.is_accurate()
+    match negative {
+        _ if !has_energy => Verdict::NoEnergy,
+        Ok(0) if shifted.is_accurate() => Verdict::Stable,
+        _ => Verdict::Open,
+    }
 }

@@ -42,7 +42,7 @@ mod whirl;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use energy_shares::EffectiveMasses;
-pub(crate) use inertia::{is_stable, is_stable_like};
+pub(crate) use inertia::{Verdict, is_stable_like, verdict};
 pub use kinks::Kink;
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
 pub(crate) use model::has_forces;

@@ -6,7 +6,7 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::consistent::mobility::mobility;
 use crate::errors::Warning;
 use crate::errors::warn;
-use crate::linearized::{LinearModel, is_stable, is_stable_like};
+use crate::linearized::{LinearModel, Verdict, is_stable_like, verdict};
 use crate::settings::Problem;
 use crate::system::State;
 
@@ -43,10 +43,15 @@ impl Monitor for Stability {
         let (representative, work) = (&integrator.representative, &mut *integrator.work);
         let is_certain = integrator.jacobian_state.has_tangent
             && is_stable_like(system, step.end, representative, (&integrator.scaled, &mut work.tangent));
-        let directions = if is_certain || is_stable(system, step.end, (representative, &work.redundancy)) {
-            Some(0)
+        let verdict = if is_certain {
+            Verdict::Stable
         } else {
-            unstable_directions(step.problem, step.end)
+            verdict(system, step.end, (representative, &work.redundancy))
+        };
+        let directions = match verdict {
+            Verdict::Stable => Some(0),
+            Verdict::NoEnergy => None,
+            Verdict::Open => unstable_directions(step.problem, step.end),
         };
         if self.changes.last().is_none_or(|(_, known)| *known != directions) {
             self.changes.push((time, directions));
