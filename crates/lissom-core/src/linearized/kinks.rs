@@ -162,7 +162,7 @@ impl LinearModel<'_> {
                     ),
                     (false, _) => (constrained[row], 1.0 / self.unit_of(row)),
                 };
-                round_off::NEGLIGIBLE * terms + round_off::FORCES * (forces + stiff[row]) / STEPS[2]
+                round_off::NEGLIGIBLE * terms + round_off::STIFFNESS * (forces + stiff[row]) / STEPS[2]
             })
             .collect()
     }
