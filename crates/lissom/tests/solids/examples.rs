@@ -4,9 +4,13 @@ use lissom::Record;
 
 use crate::support::runs::{column, last, run};
 
-fn example(name: &str) -> Record {
+fn text(name: &str) -> String {
     let path = format!("{}/../../examples/solids/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    run(&std::fs::read_to_string(path).expect("an example"), &[])
+    std::fs::read_to_string(path).expect("an example")
+}
+
+fn example(name: &str) -> Record {
+    run(&text(name), &[])
 }
 
 fn is_near(value: f64, wanted: f64, share: f64) {
@@ -31,4 +35,21 @@ fn a_mount_isolates_a_machine() {
     let half =
         0.5 * (late.iter().copied().fold(f64::MIN, f64::max) - late.iter().copied().fold(f64::MAX, f64::min));
     is_near(half, 78.7e-6, 0.02);
+}
+
+/// In calm water it heaves with √(g/d) for its draught d.
+#[test]
+fn a_raft_heaves() {
+    let lowered = text("raft").replace("-0.75, -0.15]", "-0.75, -0.17]").replace("0, -0.15]", "0, -0.17]");
+    let record = run(&lowered, &[("parameters.height", "0"), ("analysis.end", "3")]);
+    let (times, heights) = (&record.times, column(&record, "bow", "z"));
+    let up: Vec<f64> = (1..times.len())
+        .filter(|&k| heights[k - 1] < -0.15 && heights[k] >= -0.15)
+        .map(|k| {
+            let [before, after] = [heights[k - 1], heights[k]].map(|height| height + 0.15);
+            times[k - 1] - before * (times[k] - times[k - 1]) / (after - before)
+        })
+        .collect();
+    let period = (up[up.len() - 1] - up[0]) / (up.len() - 1) as f64;
+    is_near(period, std::f64::consts::TAU / (9.81_f64 / 0.15).sqrt(), 5e-3);
 }
