@@ -101,44 +101,9 @@ pub fn relative_dissipation(restitution: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// How the dissipation follows from a restitution e.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RestitutionLaw {
-    /// So that the velocity after an impact is e times that before.
-    #[default]
-    Exact,
-    /// A = 3 (1 - e²)/4 [Lankarani and Nikravesh 1990]: for small losses only, the velocity after an impact is greater.
-    LankaraniNikravesh,
-    /// A = 8 (1 - e)/(5 e) [Flores, Machado, Silva and Martins 2011], nearly exact.
-    Flores,
-}
-
-impl RestitutionLaw {
-    /// A of a restitution.
-    pub fn relative_dissipation(self, restitution: f64) -> f64 {
-        match self {
-            Self::Exact => relative_dissipation(restitution),
-            Self::LankaraniNikravesh => 0.75 * (1.0 - restitution * restitution),
-            Self::Flores => 1.6 * (1.0 - restitution) / restitution,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Compliance, RestitutionLaw, relative_dissipation};
-
-    /// For small losses all laws agree.
-    #[test]
-    fn published_laws_are_those_of_small_losses() {
-        for law in [RestitutionLaw::Exact, RestitutionLaw::LankaraniNikravesh, RestitutionLaw::Flores] {
-            let a = law.relative_dissipation(0.999);
-            assert!((a - 1.5e-3).abs() < 1.2e-4, "{law:?} {a}");
-        }
-        assert!(
-            RestitutionLaw::LankaraniNikravesh.relative_dissipation(0.3) < 0.5 * relative_dissipation(0.3)
-        );
-    }
+    use super::{Compliance, relative_dissipation};
 
     /// Penetrating, departing with a force, and departing so fast that the force vanishes.
     #[test]

@@ -1,10 +1,8 @@
 //! Contacts of bodies by a force over the penetration of their shapes.
 
-use std::borrow::Cow;
-
 use lissom_contact::elastic::ContactFriction;
 use lissom_contact::law::Impact;
-use lissom_mechanics::compliance::{Compliance, MIN_RESTITUTION, RestitutionLaw};
+use lissom_mechanics::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
 
 use lissom_motion::Vector3;
 
@@ -56,13 +54,6 @@ pub(super) fn keys() -> Vec<Key> {
             "slower impacts dissipate as those of this velocity; requires `restitution`",
         )
         .or_number(1e-3),
-        optional(
-            "restitution_law",
-            Shape::Choice(Cow::Borrowed(&["exact", "lankarani_nikravesh", "flores"])),
-            "",
-            "how the dissipation follows from `restitution`; those other than \"exact\" are for comparison with publications",
-        )
-        .or_word("exact"),
         optional(
             "dissipation",
             Shape::NotNegative,
@@ -149,18 +140,12 @@ fn impact(reader: &Reader<'_, '_>) -> Option<Impact> {
         let message = format!("`restitution` of {} is below 0.01", reader.what);
         return context.fail(node.span, message, "set `rigid = true`, whose impacts may be without rebound");
     }
-    let fine = reader.node("rest_velocity").or_else(|| reader.node("restitution_law"));
-    match (reader.node("restitution"), reader.node("dissipation"), fine) {
+    match (reader.node("restitution"), reader.node("dissipation"), reader.node("rest_velocity")) {
         (None, None, None) => Some(Impact::Dissipation(0.0)),
         (None, Some(_), None) => Some(Impact::Dissipation(reader.number("dissipation")?.value)),
         (Some(_), None, _) => {
-            let law = match reader.choice("restitution_law")?.value {
-                "lankarani_nikravesh" => RestitutionLaw::LankaraniNikravesh,
-                "flores" => RestitutionLaw::Flores,
-                _ => RestitutionLaw::Exact,
-            };
             let coefficient = reader.number("restitution")?.value;
-            let relative = law.relative_dissipation(coefficient);
+            let relative = relative_dissipation(coefficient);
             let rest_velocity = reader.number("rest_velocity")?.value;
             Some(Impact::Restitution { coefficient, relative, rest_velocity })
         }
@@ -169,8 +154,7 @@ fn impact(reader: &Reader<'_, '_>) -> Option<Impact> {
             context.fail(node.span, message, "remove one of them")
         }
         (None, _, Some(node)) => {
-            let key = if reader.has("rest_velocity") { "rest_velocity" } else { "restitution_law" };
-            let message = format!("{} has `{key}` without `restitution`", reader.what);
+            let message = format!("{} has `rest_velocity` without `restitution`", reader.what);
             context.fail(node.span, message, "add `restitution`, or remove this")
         }
     }

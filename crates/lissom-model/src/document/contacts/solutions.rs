@@ -3,12 +3,8 @@
 use super::kinds::{COMPLIANT, KINDS};
 
 /// Keys that contacts as a set do not have as elements do.
-const OF_SET: [(&str, &str); 4] = [
-    ("restitution_law", "no"),
-    ("deflection", "no effect"),
-    ("rolling_friction", "no"),
-    ("torsional_friction", "no"),
-];
+const OF_SET: [(&str, &str); 3] =
+    [("deflection", "no effect"), ("rolling_friction", "no"), ("torsional_friction", "no")];
 /// Analyses, for contacts as elements, as a set, rigid ones and those of flexible parts.
 const ANALYSES: [(&str, [&str; 4]); 5] = [
     ("error control (`relative_tolerance`)", ["yes", "no", "yes", "yes"]),

@@ -1,9 +1,8 @@
 //! Contacts of schemes that solve for all touches of a step at once: their parts and laws, without elements and events.
 
 use lissom_contact::forms::{FormKind, PlacedSolid};
-use lissom_contact::law::Impact;
 use lissom_contact::set::{ContactRule, TouchLaw, TouchingPart};
-use lissom_mechanics::compliance::{Compliance, RestitutionLaw};
+use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::kinematics::NodeId;
 use lissom_system::Builder;
 
@@ -68,11 +67,6 @@ pub(super) fn add(
 fn refused(document: &Document, law: &CompliantLaw) -> Option<&'static str> {
     if law.resistance != [0.0; 2] {
         return Some("rolling and torsional friction are");
-    }
-    if let Impact::Restitution { coefficient, relative, .. } = law.impact
-        && relative != RestitutionLaw::Exact.relative_dissipation(coefficient)
-    {
-        return Some("`restitution_law` is");
     }
     document.starts_in_equilibrium().then_some("a start from equilibrium is")
 }

@@ -25,7 +25,6 @@ class Contact(Entry):
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
         restitution: velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted; a number from 0 to 1, or nothing.
         rest_velocity: slower impacts dissipate as those of this velocity; requires `restitution`; default 1e-3 [m/s]; a number > 0, or nothing.
-        restitution_law: how the dissipation follows from `restitution`; those other than "exact" are for comparison with publications; default `"exact"`; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         static_friction: coefficient at rest, not below `friction`; default: that of `friction`; a number > 0, or nothing.
@@ -55,7 +54,6 @@ class Contact(Entry):
     tip_material: str | None = None
     restitution: Number | None = None
     rest_velocity: Number | None = None
-    restitution_law: Literal["exact", "lankarani_nikravesh", "flores"] | None = None
     dissipation: Number | None = None
     friction: Number | None = None
     static_friction: Number | None = None

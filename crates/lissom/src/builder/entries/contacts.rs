@@ -33,8 +33,6 @@ entry! {
     restitution: f64 = "restitution";
     /// Slower impacts dissipate as those of this velocity; requires `restitution`; default 1e-3 \[m/s\].
     rest_velocity: f64 = "rest_velocity";
-    /// How the dissipation follows from `restitution`; those other than "exact" are for comparison with publications; default `"exact"`.
-    restitution_law: words::RestitutionLaw = "restitution_law";
     /// Instead of `restitution`: relative increase of the normal force per penetration velocity \[s/m\].
     dissipation: f64 = "dissipation";
     /// Coefficient of sliding friction; default 0.

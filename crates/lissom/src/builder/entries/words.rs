@@ -126,14 +126,6 @@ words! {
 }
 
 words! {
-    /// One of `exact`, `lankarani_nikravesh`, `flores`.
-    RestitutionLaw;
-    Exact = "exact";
-    LankaraniNikravesh = "lankarani_nikravesh";
-    Flores = "flores";
-}
-
-words! {
     /// One of `physical`, `unit`, `none`.
     Scaling;
     Physical = "physical";
