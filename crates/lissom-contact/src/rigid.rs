@@ -335,17 +335,27 @@ impl RigidContact {
     }
 }
 
-/// Keeps two solids that touch from penetrating each other, while their contact does not stick.
+/// Keeps two solids that touch from penetrating each other, and from separating and sliding while their contact sticks.
 #[derive(Clone, Debug)]
-pub struct NonPenetration(pub Arc<RigidContact>);
+pub struct RigidConstraint {
+    /// The contact.
+    pub contact: Arc<RigidContact>,
+    /// Whether it acts while the contact sticks, in all three directions; otherwise while it does not, along the normal.
+    pub sticks: bool,
+}
 
-/// Keeps two solids that touch from separating and from sliding, while their contact sticks.
-#[derive(Clone, Debug)]
-pub struct Sticking(pub Arc<RigidContact>);
+impl RigidConstraint {
+    /// Calls `add` with the motion at the point, unless it is released.
+    fn acting(&self, at: &Kinematics, add: impl FnOnce(&RigidContact, &PointMotion)) {
+        if !self.is_released(at) {
+            add(&self.contact, &self.contact.touching(at));
+        }
+    }
+}
 
-impl Constraint for NonPenetration {
+impl Constraint for RigidConstraint {
     fn name(&self) -> &str {
-        &self.0.name
+        &self.contact.name
     }
 
     fn level(&self) -> Level {
@@ -353,15 +363,19 @@ impl Constraint for NonPenetration {
     }
 
     fn is_released(&self, at: &Kinematics) -> bool {
-        !matches!(self.0.mode(at), Mode::Sliding | Mode::Saturated)
+        match self.contact.mode(at) {
+            Mode::Sticking => !self.sticks,
+            Mode::Sliding | Mode::Saturated => self.sticks,
+            Mode::Open | Mode::Kept => true,
+        }
     }
 
     fn first_multiplier(&self) -> usize {
-        self.0.first_multiplier
+        self.contact.first_multiplier + usize::from(self.sticks)
     }
 
     fn equations(&self) -> usize {
-        1
+        if self.sticks { 3 } else { 1 }
     }
 
     fn quantity(&self, _equation: usize) -> Quantity {
@@ -369,11 +383,11 @@ impl Constraint for NonPenetration {
     }
 
     fn ports(&self) -> usize {
-        self.0.point.frames.nodes.len()
+        self.contact.point.frames.nodes.len()
     }
 
     fn port(&self, _arrangement: usize, index: usize) -> Port {
-        Port::Node(self.0.point.frames.nodes[index])
+        Port::Node(self.contact.point.frames.nodes[index])
     }
 
     fn violation(&self, _at: &Kinematics, out: &mut [f64]) {
@@ -385,129 +399,62 @@ impl Constraint for NonPenetration {
     }
 
     fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
-        if !self.is_released(at) {
-            let touching = self.0.touching(at);
-            self.0.add_rows(&touching, &touching.gap_by(), out);
-        }
+        self.acting(at, |contact, touching| {
+            if self.sticks {
+                contact.add_rows(touching, &touching.velocity_by_twist(), out);
+            } else {
+                contact.add_rows(touching, &touching.gap_by(), out);
+            }
+        });
     }
 
     fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
-        if !self.is_released(at) {
-            let touching = self.0.touching(at);
-            let normal_force = -multipliers[0];
-            let (force, by) = (normal_force * touching.gap.normal, normal_force * touching.gap.normal_by);
-            self.0.add_hessian(&touching, &force, &by, out);
-        }
+        self.acting(at, |contact, touching| {
+            let (force, by) = if self.sticks {
+                (-Vector3::from_column_slice(&multipliers[..3]), Matrix3x6::zeros())
+            } else {
+                let normal_force = -multipliers[0];
+                (normal_force * touching.gap.normal, normal_force * touching.gap.normal_by)
+            };
+            contact.add_hessian(touching, &force, &by, out);
+        });
     }
 
     fn rate_derivatives(&self, at: &Kinematics, out: &mut [f64]) {
-        if !self.is_released(at) {
-            let touching = self.0.touching(at);
-            let rows = touching.rate_by(&touching.velocity_by())[0] + RETURN_RATE * touching.gap_by();
-            self.0.add_rows(&touching, &rows, out);
-        }
+        self.acting(at, |contact, touching| {
+            if self.sticks {
+                let Gap { value, normal, normal_by, .. } = touching.gap;
+                let returning = normal * touching.gap_by() + value * normal_by;
+                contact.add_rows(touching, &(touching.velocity_by_place() + RETURN_RATE * returning), out);
+            } else {
+                let rows = touching.rate_by(&touching.velocity_by())[0] + RETURN_RATE * touching.gap_by();
+                contact.add_rows(touching, &rows, out);
+            }
+        });
     }
 
     fn time_derivative(&self, at: &Kinematics, out: &mut [f64]) {
-        if !self.is_released(at) {
-            out[0] = RETURN_RATE * self.0.touching(at).gap.value;
-        }
-    }
-
-    fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
-        let mut rows = [0.0; SIZE];
-        self.rate_derivatives(at, &mut rows);
-        self.0.by_twists(at, &rows, out);
-    }
-
-    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        self.penetration(at, visit);
-    }
-}
-
-impl NonPenetration {
-    /// Passes the penetration as a law while the solids are apart.
-    fn penetration(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        let compliance = if self.0.mode(at) == Mode::Open { PENETRATION } else { NOTHING };
-        self.0.point.laws(compliance, at, visit);
-    }
-}
-
-impl Constraint for Sticking {
-    fn name(&self) -> &str {
-        &self.0.name
-    }
-
-    fn level(&self) -> Level {
-        Level::Velocity
-    }
-
-    fn is_released(&self, at: &Kinematics) -> bool {
-        self.0.mode(at) != Mode::Sticking
-    }
-
-    fn first_multiplier(&self) -> usize {
-        self.0.first_multiplier + 1
-    }
-
-    fn equations(&self) -> usize {
-        3
-    }
-
-    fn quantity(&self, _equation: usize) -> Quantity {
-        Quantity::Length
-    }
-
-    fn ports(&self) -> usize {
-        self.0.point.frames.nodes.len()
-    }
-
-    fn port(&self, _arrangement: usize, index: usize) -> Port {
-        Port::Node(self.0.point.frames.nodes[index])
-    }
-
-    fn violation(&self, _at: &Kinematics, out: &mut [f64]) {
-        out.fill(0.0);
-    }
-
-    fn violation_change(&self, _increments: &Increments<'_>, _time_elapsed: (f64, f64), out: &mut [f64]) {
-        out.fill(0.0);
-    }
-
-    fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
-        if !self.is_released(at) {
-            let touching = self.0.touching(at);
-            self.0.add_rows(&touching, &touching.velocity_by_twist(), out);
-        }
-    }
-
-    fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
-        if !self.is_released(at) {
-            let touching = self.0.touching(at);
-            let force = -Vector3::from_column_slice(&multipliers[..3]);
-            self.0.add_hessian(&touching, &force, &Matrix3x6::zeros(), out);
-        }
-    }
-
-    fn rate_derivatives(&self, at: &Kinematics, out: &mut [f64]) {
-        if !self.is_released(at) {
-            let touching = self.0.touching(at);
-            let Gap { value, normal, normal_by, .. } = touching.gap;
-            let returning = normal * touching.gap_by() + value * normal_by;
-            self.0.add_rows(&touching, &(touching.velocity_by_place() + RETURN_RATE * returning), out);
-        }
-    }
-
-    fn time_derivative(&self, at: &Kinematics, out: &mut [f64]) {
-        if !self.is_released(at) {
-            let gap = self.0.touching(at).gap;
-            out.copy_from_slice((RETURN_RATE * gap.value * gap.normal).as_slice());
-        }
+        self.acting(at, |_, touching| {
+            let gap = &touching.gap;
+            if self.sticks {
+                out.copy_from_slice((RETURN_RATE * gap.value * gap.normal).as_slice());
+            } else {
+                out[0] = RETURN_RATE * gap.value;
+            }
+        });
     }
 
     fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
         let mut rows = [0.0; 3 * SIZE];
-        self.rate_derivatives(at, &mut rows);
-        self.0.by_twists(at, &rows, out);
+        self.rate_derivatives(at, &mut rows[..self.equations() * SIZE]);
+        self.contact.by_twists(at, &rows, out);
+    }
+
+    /// Passes the penetration as a law while the solids are apart.
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        if !self.sticks {
+            let compliance = if self.contact.mode(at) == Mode::Open { PENETRATION } else { NOTHING };
+            self.contact.point.laws(compliance, at, visit);
+        }
     }
 }

@@ -4,7 +4,7 @@ use lissom_motion::lie_bracket_matrix;
 use lissom_solver::{Group, Pattern};
 
 use super::{StepPoint, System};
-use lissom_contact::rigid::{NonPenetration, Sticking};
+use lissom_contact::rigid::RigidConstraint;
 use lissom_mechanics::evaluation::scatter_map::position_of;
 use lissom_mechanics::evaluation::scratch::with_scratch;
 use lissom_mechanics::evaluation::tangent_assembler::TangentAssembler;
@@ -30,8 +30,8 @@ pub struct Constraints {
     pub sliders: Vec<Slider>,
     pub wheels: Vec<NoSlip>,
     pub latches: Vec<Latch>,
-    pub rigid_contacts: Vec<NonPenetration>,
-    pub stickings: Vec<Sticking>,
+    pub rigid_contacts: Vec<RigidConstraint>,
+    pub stickings: Vec<RigidConstraint>,
     /// Events of rigid contacts, each with the index of its contact.
     pub contact_events: Vec<(usize, usize)>,
 }

@@ -42,7 +42,7 @@ use lissom_solver::Structure;
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
 pub use feedback::{DrivenBatch, Feedback, ScaledPower};
-use lissom_contact::rigid::{NonPenetration, RigidContact};
+use lissom_contact::rigid::RigidContact;
 use lissom_contact::set::ContactSet;
 use lissom_flexible::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
@@ -171,7 +171,7 @@ impl System {
 
     /// All rigid contacts.
     pub fn rigid_contacts(&self) -> impl ExactSizeIterator<Item = &RigidContact> {
-        self.constraints.rigid_contacts.iter().map(|NonPenetration(contact)| &**contact)
+        self.constraints.rigid_contacts.iter().map(|own| &*own.contact)
     }
 
     /// Events at which the modes of rigid contacts may change, each with the index of its contact.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Builder;
 use lissom_contact::geometry::gap::Pair;
-use lissom_contact::rigid::{EQUATIONS, NonPenetration, RigidContact, RigidLaw, RigidState, Sticking};
+use lissom_contact::rigid::{EQUATIONS, RigidConstraint, RigidContact, RigidLaw, RigidState};
 use lissom_contact::rigid_friction::RigidFriction;
 use lissom_mechanics::kinematics::{CarriedFrame, Quantity};
 use lissom_mechanics::registry::ParameterError;
@@ -31,9 +31,10 @@ impl Builder {
         for equation in &EQUATIONS[..contact.multiplier_count()] {
             self.add_velocity_multiplier(name, equation, Quantity::Length);
         }
-        self.constraints.rigid_contacts.push(NonPenetration(Arc::clone(&contact)));
+        let constraint = |sticks| RigidConstraint { contact: Arc::clone(&contact), sticks };
+        self.constraints.rigid_contacts.push(constraint(false));
         if contact.has_friction() {
-            self.constraints.stickings.push(Sticking(Arc::clone(&contact)));
+            self.constraints.stickings.push(constraint(true));
             self.add_element(RigidFriction::new(Arc::clone(&contact)));
         }
         contact
