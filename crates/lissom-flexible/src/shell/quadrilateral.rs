@@ -1,4 +1,6 @@
-//! Nodes, edges and points of quadrature of a quadrilateral, and its bilinear functions.
+//! Nodes, edges and points of quadrature of a quadrilateral.
+
+pub use lissom_mesh::kinds::face::{CORNERS, bilinear};
 
 /// Nodes of an element.
 pub const NODES: usize = 4;
@@ -13,16 +15,3 @@ pub(super) const GAUSS_POINTS: [(f64, f64); POINTS] =
     [(-GAUSS, -GAUSS), (GAUSS, -GAUSS), (-GAUSS, GAUSS), (GAUSS, GAUSS)];
 /// First and second node of the edges along r at s = -1 and 1, and along s at r = -1 and 1.
 pub const EDGES: [(usize, usize); 4] = [(0, 1), (3, 2), (0, 3), (1, 2)];
-
-/// Signs of r and s at the nodes.
-pub const CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-
-/// The bilinear functions at (r, s), and their derivatives with respect to r and s.
-pub(super) fn bilinear(r: f64, s: f64) -> [[f64; 4]; 3] {
-    let of = |value: &dyn Fn((f64, f64)) -> f64| CORNERS.map(value);
-    [
-        of(&|(a, b)| 0.25 * (1.0 + a * r) * (1.0 + b * s)),
-        of(&|(a, b)| 0.25 * a * (1.0 + b * s)),
-        of(&|(a, b)| 0.25 * b * (1.0 + a * r)),
-    ]
-}

@@ -9,19 +9,30 @@ use super::points::{on_square, on_triangle};
 /// Functions of a face over its first two natural coordinates and its rule, by its number of nodes: four, six or eight.
 pub fn rule(nodes: usize) -> Option<(Fill, Rule)> {
     match nodes {
-        4 => Some((bilinear, (gauss, 4))),
+        4 => Some((square, (gauss, 4))),
         6 => Some((triangle, (on_triangle, 9))),
         8 => Some((quadrilateral, (on_square, 9))),
         _ => None,
     }
 }
 
-/// Functions of a quadrilateral with four nodes.
-fn bilinear([r, s, _]: Natural, values: &mut [f64], slopes: &mut [Vector3]) {
-    for (i, [a, b]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate() {
-        values[i] = 0.25 * (1.0 + a * r) * (1.0 + b * s);
-        slopes[i] = Vector3::new(0.25 * a * (1.0 + b * s), 0.25 * b * (1.0 + a * r), 0.0);
-    }
+/// Signs of r and s at the nodes of a quadrilateral.
+pub const CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+
+/// The bilinear functions of its nodes at (r, s), and their derivatives with respect to r and s.
+pub fn bilinear(r: f64, s: f64) -> [[f64; 4]; 3] {
+    let of = |value: &dyn Fn((f64, f64)) -> f64| CORNERS.map(value);
+    [
+        of(&|(a, b)| 0.25 * (1.0 + a * r) * (1.0 + b * s)),
+        of(&|(a, b)| 0.25 * a * (1.0 + b * s)),
+        of(&|(a, b)| 0.25 * b * (1.0 + a * r)),
+    ]
+}
+
+fn square([r, s, _]: Natural, values: &mut [f64], slopes: &mut [Vector3]) {
+    let [own, by_r, by_s] = bilinear(r, s);
+    values.copy_from_slice(&own);
+    slopes.iter_mut().zip(by_r).zip(by_s).for_each(|((slope, r), s)| *slope = Vector3::new(r, s, 0.0));
 }
 
 fn gauss(k: usize) -> (Natural, f64) {
