@@ -106,7 +106,7 @@ fn imports(text: &str) -> String {
                 "SuperelementId",
             ],
         ),
-        ("builder::entry", &["entry", "keys", "nested"]),
+        ("builder::entry", &["entries", "keys"]),
         (
             "builder::values",
             &["Inertia", "Mass", "Matrix", "Node", "PositionOrNode", "SectionMass", "Shear", "Solid"],
@@ -115,8 +115,10 @@ fn imports(text: &str) -> String {
     ];
     let names = |word: &&&str| {
         let letters = |c: char| c.is_alphanumeric() || c == '_';
+        // What is beyond the type of a key are words about it.
         text.lines()
             .filter(|line| !line.trim_start().starts_with("///") && !line.contains("=>"))
+            .filter_map(|line| line.split(" = ").next())
             .any(|line| line.split(|c| !letters(c)).any(|part| part == **word))
     };
     let mut lines: Vec<String> = Vec::new();
@@ -148,7 +150,7 @@ fn text_of(types: &[Declared]) -> String {
         let has = |declared: &&Declared| declared.optional.contains(key);
         types.iter().filter(has).map(|declared| declared.name.as_str()).collect()
     };
-    let mut text = String::new();
+    let mut text = String::from("entries! {\n");
     let mut shared: Vec<(Vec<&str>, String)> = Vec::new();
     for declared in types {
         text.push_str(&declared.heading);
@@ -164,8 +166,10 @@ fn text_of(types: &[Declared]) -> String {
                 shared.push((owners, key.clone()));
             }
         }
-        line(&mut text, "}\n");
+        line(&mut text, "    }\n");
     }
+    text.truncate(text.trim_end().len());
+    line(&mut text, "\n}\n");
     for (owners, keys) in shared {
         line(&mut text, &format!("keys! {{\n    [{}]\n{keys}}}\n", owners.join(", ")));
     }
@@ -181,14 +185,13 @@ fn entry(
     let word = if variant.word.is_empty() { single(table) } else { variant.word };
     let summary = if variant.summary.is_empty() { summary_of(table) } else { variant.summary };
     let name = if variant.word == "expression" { "ExpressionOutput".to_owned() } else { camel(word) };
-    let tagged = tag.map_or(String::new(), |tag| format!("{tag:?} = {:?}", variant.word));
-    let heading =
-        format!("entry! {{\n    /// {}\n    {name} => {id}, {word:?};\n    [{tagged}]\n", sentence(summary));
+    let tagged = tag.map_or(String::new(), |tag| format!("{tag}: "));
+    let heading = format!("    /// {}\n    {name} => {id}, {tagged}{word:?} {{\n", sentence(summary));
     with_keys(Declared { name, heading, optional: Vec::new() }, &variant.keys, tag, words)
 }
 
 fn nested((name, summary): (&str, &str), keys: &[Key], words: &mut Words) -> Declared {
-    let heading = format!("nested! {{\n    /// {}\n    {name};\n", sentence(summary));
+    let heading = format!("    /// {}\n    {name} {{\n", sentence(summary));
     with_keys(Declared { name: name.to_owned(), heading, optional: Vec::new() }, keys, None, words)
 }
 
@@ -200,25 +203,18 @@ fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mu
         .filter_map(|key| Some((key, type_of(key, words)?)))
         .collect();
     let (required, optional): (Vec<_>, Vec<_>) = typed.into_iter().partition(|(key, _)| key.required);
-    let text = &mut declared.heading;
-    line(text, "    /// With what must be given.");
-    if !required.is_empty() {
-        line(text, "    ///");
+    for (key, holds) in &required {
+        declared.heading += &row("* ", key, holds, &about(key));
     }
-    for (key, _) in &required {
-        line(text, &format!("    /// - `{}`: {}", identifier(key.name), about(key)));
-    }
-    let arguments: Vec<String> = required
-        .iter()
-        .map(|(key, holds)| format!("{}: {holds} = {:?}", identifier(key.name), key.name))
-        .collect();
-    line(text, &format!("    new({})", arguments.join(", ")));
     for (key, holds) in &optional {
-        let words = sentence(&about(key));
-        let declaration = format!("{}: {holds} = {:?};", identifier(key.name), key.name);
-        declared.optional.push(format!("    /// {words}\n    {declaration}\n"));
+        declared.optional.push(row("", key, holds, &sentence(&about(key))));
     }
     declared
+}
+
+/// The declaration of a key with its mark and its meaning.
+fn row(mark: &str, key: &Key, holds: &str, words: &str) -> String {
+    format!("        {mark}{}: {holds} = {:?}, {words:?};\n", identifier(key.name), key.name)
 }
 
 /// Rust type of a key; none for those that are not used in code.
@@ -255,18 +251,13 @@ fn word_type(key: &Key, known: &[&'static str], words: &mut Words) -> String {
 }
 
 fn words_text(words: &Words) -> String {
-    let mut text = String::from("//! Words that keys choose among.\n\nuse crate::builder::entry::words;\n\n");
+    let mut text =
+        String::from("//! Words that keys choose among.\n\nuse crate::builder::entry::words;\n\nwords! {\n");
     for (name, known) in words {
-        line(&mut text, "words! {");
-        let quoted: Vec<String> = known.iter().map(|word| format!("`{word}`")).collect();
-        line(&mut text, &format!("    /// One of {}.", quoted.join(", ")));
-        line(&mut text, &format!("    {name};"));
-        for word in known {
-            line(&mut text, &format!("    {} = {word:?};", camel(word)));
-        }
-        line(&mut text, "}\n");
+        let all: Vec<String> = known.iter().map(|word| format!("{} = {word:?}", camel(word))).collect();
+        line(&mut text, &format!("    {name} {{ {} }}", all.join(", ")));
     }
-    format!("{}\n", text.trim_end())
+    text + "}\n"
 }
 
 /// The word for one entry of a table that has a single form.

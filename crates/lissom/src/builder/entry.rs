@@ -1,4 +1,5 @@
-//! Declaration of the types of entries: required values are arguments of `new`, the others have a method per key.
+//! Declaration of the types of entries: required values are arguments of `new`, the others have a method per key. A row has the name
+//! in code, the type, the key and its meaning.
 
 use super::written::Written;
 use crate::ids::Id;
@@ -14,58 +15,36 @@ pub trait Entry {
     fn written(self) -> Written;
 }
 
-/// Declares the type of an entry of a table.
-macro_rules! entry {
-    (
-        $(#[$meta:meta])*
-        $name:ident => $id:ident, $word:literal;
-        [$($tag:literal = $form:literal)?]
-        $($rest:tt)*
-    ) => {
-        $crate::builder::entry::fields! {
-            $(#[$meta])*
-            $name
-            [$($tag = $form)?]
-            $($rest)*
-        }
-
-        impl $crate::builder::entry::Entry for $name {
-            type Id = $crate::ids::$id;
-            const WORD: &'static str = $word;
-
-            fn written(self) -> $crate::builder::written::Written {
-                self.0.into()
-            }
-        }
-    };
-}
-
-/// Declares the type of a table that is the value of a key.
-macro_rules! nested {
-    ($(#[$meta:meta])* $name:ident; $($rest:tt)*) => {
-        $crate::builder::entry::fields! {
-            $(#[$meta])*
-            $name
-            []
-            $($rest)*
-        }
+/// Declares the types of the entries of a table, and of tables that are values of keys, which have neither ids nor a word.
+macro_rules! entries {
+    ($($(#[$meta:meta])* $name:ident $(=> $id:ident, $($tag:ident:)? $word:literal)? { $($keys:tt)* })*) => {$(
+        $crate::builder::entry::fields! { $(#[$meta])* $name [$($($tag = $word)?)?] $($keys)* }
 
         impl From<$name> for $crate::builder::written::Written {
             fn from(value: $name) -> Self {
                 value.0.into()
             }
         }
-    };
+
+        $(impl $crate::builder::entry::Entry for $name {
+            type Id = $crate::ids::$id;
+            const WORD: &'static str = $word;
+
+            fn written(self) -> $crate::builder::written::Written {
+                self.0.into()
+            }
+        })?
+    )*};
 }
 
+/// Declares one of them: what must be given is marked by an asterisk.
 macro_rules! fields {
     (
         $(#[$meta:meta])*
         $name:ident
-        [$($tag:literal = $form:literal)?]
-        $(#[$new:meta])*
-        new($($required:ident: $held:ty = $key:literal),*)
-        $($(#[$doc:meta])* $optional:ident: $holds:ty = $own:literal;)*
+        [$($tag:ident = $form:literal)?]
+        $(* $required:ident: $held:ty = $key:literal, $words:literal;)*
+        $($optional:ident: $holds:ty = $own:literal, $about:literal;)*
     ) => {
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq)]
@@ -73,27 +52,29 @@ macro_rules! fields {
         pub struct $name(pub(crate) $crate::builder::written::Fields);
 
         impl $name {
-            $(#[$new])*
+            /// With what must be given.
+            ///
+            $(#[doc = concat!("- `", stringify!($required), "`: ", $words)])*
             #[allow(clippy::new_without_default, reason = "what is empty is rarely meant")]
             pub fn new($($required: impl Into<$held>),*) -> Self {
                 #[allow(unused_mut, reason = "some have nothing that must be given")]
                 let mut fields = $crate::builder::written::Fields::default();
-                $(fields.set($tag, $form.to_owned());)?
+                $(fields.set(stringify!($tag), $form.to_owned());)?
                 $(fields.set($key, $required.into());)*
                 Self(fields)
             }
         }
 
-        $crate::builder::entry::keys! { [$name] $($(#[$doc])* $optional: $holds = $own;)* }
+        $crate::builder::entry::keys! { [$name] $($optional: $holds = $own, $about;)* }
     };
 }
 
 /// Declares optional keys, for each of some types.
 macro_rules! keys {
-    ([$name:ident] $($(#[$doc:meta])* $optional:ident: $holds:ty = $own:literal;)*) => {
+    ([$name:ident] $($optional:ident: $holds:ty = $own:literal, $about:literal;)*) => {
         impl $name {
             $(
-                $(#[$doc])*
+                #[doc = $about]
                 pub fn $optional(mut self, value: impl Into<$holds>) -> Self {
                     self.0.set($own, value.into());
                     self
@@ -107,10 +88,10 @@ macro_rules! keys {
     };
 }
 
-/// Declares a type for the words of a key.
+/// Declares types for the words of keys.
 macro_rules! words {
-    ($(#[$meta:meta])* $name:ident; $($word:ident = $written:literal;)*) => {
-        $(#[$meta])*
+    ($($name:ident { $($word:ident = $written:literal),* })*) => {$(
+        #[doc = concat!("One of"$(, " `", $written, "`")*, ".")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[non_exhaustive]
         pub enum $name {
@@ -128,7 +109,7 @@ macro_rules! words {
                 Self::Text(written.to_owned())
             }
         }
-    };
+    )*};
 }
 
-pub(crate) use {entry, fields, keys, nested, words};
+pub(crate) use {entries, fields, keys, words};
