@@ -263,13 +263,13 @@ impl DefaultValue {
     }
 }
 
-/// One parameter of a kind.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameter {
+/// A parameter of a kind, or another key of a model file, with what its type of values is described by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Declared<T> {
     /// Key in the model file.
     pub name: &'static str,
     /// Type of its value.
-    pub holds: ParameterType,
+    pub holds: T,
     /// Whether it must be given.
     pub required: bool,
     /// Unit, such as `N m/rad`; empty for none.
@@ -280,43 +280,62 @@ pub struct Parameter {
     pub default: Option<DefaultValue>,
 }
 
-impl Parameter {
-    /// A required parameter.
-    pub const fn required(
-        name: &'static str,
-        holds: ParameterType,
-        unit: &'static str,
-        summary: &'static str,
-    ) -> Self {
-        Self { name, holds, required: true, unit, summary, default: None }
-    }
+/// One parameter of a kind.
+pub type Parameter = Declared<ParameterType>;
 
-    /// An optional parameter.
-    pub const fn optional(
-        name: &'static str,
-        holds: ParameterType,
-        unit: &'static str,
-        summary: &'static str,
-    ) -> Self {
-        Self { name, holds, required: false, unit, summary, default: None }
+/// A key that must be given.
+pub const fn required<T>(
+    name: &'static str,
+    holds: T,
+    unit: &'static str,
+    summary: &'static str,
+) -> Declared<T> {
+    Declared { name, holds, required: true, unit, summary, default: None }
+}
+
+/// A key that may be omitted.
+pub const fn optional<T>(
+    name: &'static str,
+    holds: T,
+    unit: &'static str,
+    summary: &'static str,
+) -> Declared<T> {
+    Declared { name, holds, required: false, unit, summary, default: None }
+}
+
+/// A key without a unit that may be omitted.
+pub const fn unitless<T>(name: &'static str, holds: T, summary: &'static str) -> Declared<T> {
+    optional(name, holds, "", summary)
+}
+
+impl<T> Declared<T> {
+    const fn or(mut self, default: DefaultValue) -> Self {
+        self.default = Some(default);
+        self
     }
 
     /// The same with this number as its default.
     #[must_use]
     pub const fn or_number(self, value: f64) -> Self {
-        Self { default: Some(DefaultValue::Number(value)), ..self }
+        self.or(DefaultValue::Number(value))
+    }
+
+    /// The same with this count as its default.
+    #[must_use]
+    pub const fn or_count(self, value: usize) -> Self {
+        self.or_number(value as f64)
     }
 
     /// The same with this default.
     #[must_use]
     pub const fn or_flag(self, value: bool) -> Self {
-        Self { default: Some(DefaultValue::Flag(value)), ..self }
+        self.or(DefaultValue::Flag(value))
     }
 
     /// The same with this word as its default.
     #[must_use]
     pub const fn or_word(self, word: &'static str) -> Self {
-        Self { default: Some(DefaultValue::Word(word)), ..self }
+        self.or(DefaultValue::Word(word))
     }
 
     /// Its summary with the default.
@@ -326,16 +345,12 @@ impl Parameter {
 }
 
 /// The initial relative rotation of a joint.
-pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
-    "angle",
-    ParameterType::Number,
-    "rad",
-    "Value of the relative rotation at the start.",
-)
-.or_number(0.0);
+pub(crate) const ANGLE_AT_START: Parameter =
+    optional("angle", ParameterType::Number, "rad", "Value of the relative rotation at the start.")
+        .or_number(0.0);
 
 /// The initial rate of a joint's relative rotation.
-pub(crate) const RATE_AT_START: Parameter = Parameter::optional(
+pub(crate) const RATE_AT_START: Parameter = optional(
     "rate",
     ParameterType::Number,
     "rad/s",
@@ -343,16 +358,12 @@ pub(crate) const RATE_AT_START: Parameter = Parameter::optional(
 );
 
 /// The initial relative displacement of a joint.
-pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
-    "displacement",
-    ParameterType::Number,
-    "m",
-    "Value of the relative displacement at the start.",
-)
-.or_number(0.0);
+pub(crate) const DISPLACEMENT_AT_START: Parameter =
+    optional("displacement", ParameterType::Number, "m", "Value of the relative displacement at the start.")
+        .or_number(0.0);
 
 /// The initial velocity of a joint's relative displacement.
-pub(crate) const VELOCITY_AT_START: Parameter = Parameter::optional(
+pub(crate) const VELOCITY_AT_START: Parameter = optional(
     "velocity",
     ParameterType::Number,
     "m/s",
@@ -360,26 +371,23 @@ pub(crate) const VELOCITY_AT_START: Parameter = Parameter::optional(
 );
 
 /// Which coordinate of a joint that has several.
-pub(crate) const COORDINATE: Parameter = Parameter::optional(
+pub(crate) const COORDINATE: Parameter = unitless(
     "coordinate",
     ParameterType::Positive,
-    "",
     "Number of the joint's coordinate, from 1; default: the first suitable one.",
 );
 
 /// Which coordinate of the first joint, for kinds that couple two.
-pub(crate) const WHICH_COORDINATE: Parameter = Parameter::optional(
+pub(crate) const WHICH_COORDINATE: Parameter = unitless(
     "coordinate",
     ParameterType::Positive,
-    "",
     "Number of the coordinate of `joint`, from 1; may be omitted if there is only one.",
 );
 
 /// Which coordinate of the other joint, for kinds that couple two.
-pub(crate) const OTHER_COORDINATE: Parameter = Parameter::optional(
+pub(crate) const OTHER_COORDINATE: Parameter = unitless(
     "other_coordinate",
     ParameterType::Positive,
-    "",
     "Number of the coordinate of `other`, from 1; may be omitted if there is only one.",
 );
 

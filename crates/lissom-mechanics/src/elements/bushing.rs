@@ -25,23 +25,21 @@ use super::{Capabilities, Element, Energy, Tangents, Unknowns};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics};
 use crate::ports::Ports;
-use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters, optional, unitless};
 
 /// Names of the forms.
 const FORMS: [&str; 2] = ["base_axes", "screw"];
 
 /// The first axis of a spring or bearing with axes of its own.
-pub(super) const AXIS: Parameter = Parameter::optional(
+pub(super) const AXIS: Parameter = unitless(
     "axis",
     ParameterType::DirectionOr(ModelAxis::X),
-    "",
     "First axis at the start, global axes; default global x. The axes rotate with the base.",
 );
 /// The second one.
-pub(super) const SECOND_AXIS: Parameter = Parameter::optional(
+pub(super) const SECOND_AXIS: Parameter = unitless(
     "second_axis",
     ParameterType::DirectionOr(ModelAxis::Y),
-    "",
     "Second axis at the start, global axes, made perpendicular to the first; default global y.",
 );
 
@@ -51,13 +49,13 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Springs and dampers along and about three axes, with full matrices, also between coincident points.",
     sample: "stiffness = [1e6, 1e6, 1e5, 100.0, 100.0, 10.0]",
     parameters: &[
-        Parameter::optional(
+        optional(
             "stiffness",
             ParameterType::Matrix,
             "N/m, N, N m/rad",
             "6 x 6 or its diagonal: displacements along the axes, rotations about them.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "damping",
             ParameterType::Matrix,
             "N s/m, N s, N m s/rad",
@@ -65,10 +63,9 @@ pub const KIND: ElementKind = ElementKind {
         ).or_number(0.0),
         AXIS,
         SECOND_AXIS,
-        Parameter::optional(
+        unitless(
             "form",
             ParameterType::Choice(&FORMS),
-            "",
             "Displacement and rotation in the axes of the base (\"base_axes\"), or as a screw, which is the same from both sides.",
         )
         .or_word(FORMS[0]),

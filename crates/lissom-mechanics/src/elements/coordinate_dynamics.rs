@@ -15,7 +15,7 @@ use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Energy, Load, Tangents, Unknowns};
 use crate::kinematics::{CoordinateId, Kinematics};
 use crate::ports::{PortDeclaration, PortType, Ports};
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{ParameterError, ParameterType, Parameters, optional};
 use crate::round_off;
 
 /// Maximum number of coordinates of one entry: its matrices are full.
@@ -29,25 +29,25 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Mass, damping and stiffness matrices on coordinates: `M q'' + D q' + K (q - rest)` in their equations.",
     sample: "mass = [2.0, 1.0]\nstiffness = [[30.0, -10.0], [-10.0, 10.0]]",
     parameters: &[
-        Parameter::optional(
+        optional(
             "mass",
             ParameterType::SquareMatrix,
             "kg, kg m or kg m²",
             "Mass matrix, symmetric, without negative eigenvalues.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "damping",
             ParameterType::SquareMatrix,
             "N s/m, N s or N m s/rad",
             "Damping matrix; it may be unsymmetric (gyroscopic forces) or negative.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "stiffness",
             ParameterType::SquareMatrix,
             "N/m, N/rad or N m/rad",
             "Stiffness matrix; it may be unsymmetric (circulatory forces).",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "rest",
             ParameterType::Numbers,
             "m or rad",

@@ -10,7 +10,8 @@ use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
 use crate::law::VisitLaw;
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{NotNegative, Number};
+use crate::registry::{COORDINATE, ParameterError, ParameterType, Parameters, optional};
 use crate::signals::measurement::Gradient;
 
 /// Registry entry of the spring on a rotation.
@@ -19,36 +20,30 @@ pub(crate) const TORSIONAL: ElementKind = ElementKind {
     summary: "Spring and damper on a joint's relative rotation.",
     sample: "stiffness = 10.0",
     parameters: &[
-        Parameter::optional("stiffness", ParameterType::NotNegative, "N m/rad", "Stiffness.").or_number(0.0),
-        Parameter::optional("damping", ParameterType::NotNegative, "N m s/rad", "Damping.").or_number(0.0),
-        Parameter::optional(
+        optional("stiffness", NotNegative, "N m/rad", "Stiffness.").or_number(0.0),
+        optional("damping", NotNegative, "N m s/rad", "Damping.").or_number(0.0),
+        optional(
             "moment",
             ParameterType::Force(&["rotation", "rate"]),
             "N m",
             "Moment over `rotation` and `rate`, in addition to `stiffness`; a table is over `rotation`.",
         ),
-        Parameter::optional(
+        optional(
             "damper_moment",
             ParameterType::Force(&["rate", "rotation"]),
             "N m",
             "Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate`.",
         ),
         SIDE_OF_ANGLE,
-        Parameter::optional(
-            "limits",
-            ParameterType::Range,
-            "N m",
-            "Minimum and maximum moment; default: none.",
-        ),
-        Parameter::optional(
+        optional("limits", ParameterType::Range, "N m", "Minimum and maximum moment; default: none."),
+        optional(
             "backlash",
-            ParameterType::NotNegative,
+            NotNegative,
             "rad",
             "Width of the backlash about the free rotation, without moment.",
         )
         .or_number(0.0),
-        Parameter::optional("angle", ParameterType::Number, "rad", "Relative rotation without moment.")
-            .or_number(0.0),
+        optional("angle", Number, "rad", "Relative rotation without moment.").or_number(0.0),
         PRELOAD_MOMENT,
         COORDINATE,
     ],
@@ -64,36 +59,25 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
     summary: "Spring and damper on a joint's relative displacement.",
     sample: "stiffness = 1000.0",
     parameters: &[
-        Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness.").or_number(0.0),
-        Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping.").or_number(0.0),
-        Parameter::optional(
+        optional("stiffness", NotNegative, "N/m", "Stiffness.").or_number(0.0),
+        optional("damping", NotNegative, "N s/m", "Damping.").or_number(0.0),
+        optional(
             "force",
             ParameterType::Force(&["elongation", "rate"]),
             "N",
             "Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation`.",
         ),
-        Parameter::optional(
+        optional(
             "damper_force",
             ParameterType::Force(&["rate", "elongation"]),
             "N",
             "Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
         ),
         SIDE_OF_LENGTH,
-        Parameter::optional("limits", ParameterType::Range, "N", "Minimum and maximum force; default: none."),
-        Parameter::optional(
-            "backlash",
-            ParameterType::NotNegative,
-            "m",
-            "Width of the backlash about the free length, without force.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
-            "displacement",
-            ParameterType::Number,
-            "m",
-            "Relative displacement without force.",
-        )
-        .or_number(0.0),
+        optional("limits", ParameterType::Range, "N", "Minimum and maximum force; default: none."),
+        optional("backlash", NotNegative, "m", "Width of the backlash about the free length, without force.")
+            .or_number(0.0),
+        optional("displacement", Number, "m", "Relative displacement without force.").or_number(0.0),
         PRELOAD_FORCE,
         COORDINATE,
     ],

@@ -8,7 +8,7 @@ use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
-use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, required, unitless};
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -22,17 +22,16 @@ pub const KIND: ElementKind = ElementKind {
 
 /// Parameters that a force and a moment share.
 pub(super) const LOAD_PARAMETERS: &[Parameter] = &[
-    Parameter::required(
+    required(
         "vector",
         ParameterType::GlobalVector,
         "N or N m",
         "Force or moment at scale 1, in global axes at the start.",
     ),
-    Parameter::optional("scale", ParameterType::Size, "", "Factor.").or_number(1.0),
-    Parameter::optional(
+    unitless("scale", ParameterType::Size, "Factor.").or_number(1.0),
+    unitless(
         "follower",
         ParameterType::Flag,
-        "",
         "Whether it rotates with the node; otherwise its direction is fixed.",
     )
     .or_flag(false),

@@ -14,14 +14,14 @@ use super::point_spring::{Point, add_pull};
 use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
-use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{Function, ParameterError, ParameterType, Parameters, required};
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
     name: "force_between",
     summary: "Force of an actuator between two points, along the line through them: a cylinder, a muscle, a cable of given tension.",
     sample: "force = \"200*sin(t)\"",
-    parameters: &[Parameter::required(
+    parameters: &[required(
         "force",
         ParameterType::Size,
         "N",

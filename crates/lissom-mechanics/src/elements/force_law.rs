@@ -14,40 +14,39 @@
 use crate::evaluation::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
 use crate::law::{Enclosure, Interval, NARROW_BOUNDS, ScalarLaw, hull, scaled, sum};
-use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::Number;
+use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters, optional, unitless};
 use crate::round_off;
 use crate::signals::measurement::Gradient;
 
 /// The force at the start, for lengths.
-pub(crate) const PRELOAD_FORCE: Parameter = Parameter::optional(
+pub(crate) const PRELOAD_FORCE: Parameter = optional(
     "preload",
-    ParameterType::Number,
+    Number,
     "N",
     "Force at the start, positive if it pulls, instead of the position without force.",
 );
 
 /// The same for angles.
-pub(crate) const PRELOAD_MOMENT: Parameter = Parameter::optional(
+pub(crate) const PRELOAD_MOMENT: Parameter = optional(
     "preload",
-    ParameterType::Number,
+    Number,
     "N m",
     "Moment at the start, positive if it resists a positive rotation, instead of the rotation without moment.",
 );
 
 /// On which side of the free length it acts, for lengths.
-pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
+pub(crate) const SIDE_OF_LENGTH: Parameter = unitless(
     "side",
     ParameterType::Choice(&["both", "tension", "compression"]),
-    "",
     "Where it acts: beyond its free length (\"tension\"), below it (\"compression\"), or both.",
 )
 .or_word("both");
 
 /// The same for angles.
-pub(crate) const SIDE_OF_ANGLE: Parameter = Parameter::optional(
+pub(crate) const SIDE_OF_ANGLE: Parameter = unitless(
     "side",
     ParameterType::Choice(&["both", "positive", "negative"]),
-    "",
     "Where it acts: above its free rotation (\"positive\"), below it (\"negative\"), or both.",
 )
 .or_word("both");

@@ -14,7 +14,8 @@ use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Energy, Spring, StrainSlopes, Tangents, Unknowns};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{NotNegative, Positive};
+use crate::registry::{COORDINATE, ParameterError, Parameters, optional, required};
 use crate::signals::measurement::Gradient;
 
 /// Default deflection at which the bristle slips [rad, m].
@@ -26,41 +27,13 @@ pub const TORSIONAL: ElementKind = ElementKind {
     summary: "Dry and viscous friction on a joint's relative rotation; sticking is free of creep.",
     sample: "coulomb = 0.5",
     parameters: &[
-        Parameter::required("coulomb", ParameterType::Positive, "N m", "Moment of sliding friction."),
-        Parameter::optional(
-            "breakaway",
-            ParameterType::Positive,
-            "N m",
-            "Additional moment of friction at rest; default none.",
-        ),
-        Parameter::optional(
-            "stribeck",
-            ParameterType::Positive,
-            "rad/s",
-            "Rate at which the additional moment has fallen to 1/e.",
-        )
-        .or_number(0.01),
-        Parameter::optional(
-            "viscous",
-            ParameterType::NotNegative,
-            "N m s/rad",
-            "Additional moment per rate.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
-            "deflection",
-            ParameterType::Positive,
-            "rad",
-            "Elastic rotation before it slips.",
-        )
-        .or_number(DEFLECTION),
-        Parameter::optional(
-            "damping",
-            ParameterType::NotNegative,
-            "N m s/rad",
-            "Damping of the elastic rotation.",
-        )
-        .or_number(0.0),
+        required("coulomb", Positive, "N m", "Moment of sliding friction."),
+        optional("breakaway", Positive, "N m", "Additional moment of friction at rest; default none."),
+        optional("stribeck", Positive, "rad/s", "Rate at which the additional moment has fallen to 1/e.")
+            .or_number(0.01),
+        optional("viscous", NotNegative, "N m s/rad", "Additional moment per rate.").or_number(0.0),
+        optional("deflection", Positive, "rad", "Elastic rotation before it slips.").or_number(DEFLECTION),
+        optional("damping", NotNegative, "N m s/rad", "Damping of the elastic rotation.").or_number(0.0),
         COORDINATE,
     ],
     ports: Ports::ROTATION,
@@ -73,36 +46,13 @@ pub const AXIAL: ElementKind = ElementKind {
     summary: "Dry and viscous friction on a joint's relative displacement; sticking is free of creep.",
     sample: "coulomb = 5.0",
     parameters: &[
-        Parameter::required("coulomb", ParameterType::Positive, "N", "Force of sliding friction."),
-        Parameter::optional(
-            "breakaway",
-            ParameterType::Positive,
-            "N",
-            "Additional force of friction at rest; default none.",
-        ),
-        Parameter::optional(
-            "stribeck",
-            ParameterType::Positive,
-            "m/s",
-            "Velocity at which the additional force has fallen to 1/e.",
-        )
-        .or_number(0.01),
-        Parameter::optional("viscous", ParameterType::NotNegative, "N s/m", "Additional force per velocity.")
-            .or_number(0.0),
-        Parameter::optional(
-            "deflection",
-            ParameterType::Positive,
-            "m",
-            "Elastic displacement before it slips.",
-        )
-        .or_number(DEFLECTION),
-        Parameter::optional(
-            "damping",
-            ParameterType::NotNegative,
-            "N s/m",
-            "Damping of the elastic displacement.",
-        )
-        .or_number(0.0),
+        required("coulomb", Positive, "N", "Force of sliding friction."),
+        optional("breakaway", Positive, "N", "Additional force of friction at rest; default none."),
+        optional("stribeck", Positive, "m/s", "Velocity at which the additional force has fallen to 1/e.")
+            .or_number(0.01),
+        optional("viscous", NotNegative, "N s/m", "Additional force per velocity.").or_number(0.0),
+        optional("deflection", Positive, "m", "Elastic displacement before it slips.").or_number(DEFLECTION),
+        optional("damping", NotNegative, "N s/m", "Damping of the elastic displacement.").or_number(0.0),
         COORDINATE,
     ],
     ports: Ports::DISPLACEMENT,

@@ -17,7 +17,8 @@ use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, OwnInertia, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{Number, Positive};
+use crate::registry::{ParameterError, ParameterType, Parameters, required};
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -25,19 +26,14 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Rotor in a body, with a constant rate of spin relative to it.",
     sample: "axis = [0.0, 0.0, 1.0]\ninertia = 0.02\nspin = 300.0",
     parameters: &[
-        Parameter::required(
+        required(
             "axis",
             ParameterType::Direction,
             "",
             "Axis of the rotor at the start, global axes; it rotates with the node.",
         ),
-        Parameter::required(
-            "inertia",
-            ParameterType::Positive,
-            "kg m²",
-            "Inertia of the rotor about its axis.",
-        ),
-        Parameter::required("spin", ParameterType::Number, "rad/s", "Rate of spin relative to the body."),
+        required("inertia", Positive, "kg m²", "Inertia of the rotor about its axis."),
+        required("spin", Number, "rad/s", "Rate of spin relative to the body."),
     ],
     ports: Ports::ONE_FRAME,
     build,

@@ -6,7 +6,7 @@ use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Load, Tangents, Unknowns};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{COORDINATE, Function, ParameterError, ParameterType, Parameters, required};
 
 /// Registry entry of the torque on a rotation.
 pub(crate) const TORQUE: ElementKind = ElementKind {
@@ -14,7 +14,7 @@ pub(crate) const TORQUE: ElementKind = ElementKind {
     summary: "Torque of an actuator on a joint's relative rotation, from the base on the tip.",
     sample: "torque = \"2*sin(t)\"",
     parameters: &[
-        Parameter::required(
+        required(
             "torque",
             ParameterType::Size,
             "N m",
@@ -32,7 +32,7 @@ pub(crate) const FORCE: ElementKind = ElementKind {
     summary: "Force of an actuator on a joint's relative displacement, from the base on the tip.",
     sample: "force = \"2*sin(t)\"",
     parameters: &[
-        Parameter::required(
+        required(
             "force",
             ParameterType::Size,
             "N",

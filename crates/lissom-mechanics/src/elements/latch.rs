@@ -4,11 +4,11 @@ use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters, required};
 
 const PARAMETERS: &[Parameter] = &[
     COORDINATE,
-    Parameter::required(
+    required(
         "engaged",
         ParameterType::Input,
         "",

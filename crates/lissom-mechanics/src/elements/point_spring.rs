@@ -19,7 +19,8 @@ use crate::kinematics::{CarriedFrame, Kinematics, NodeId, NodeMotion, Switch, sp
 use crate::law::VisitLaw;
 use crate::number::Written;
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::NotNegative;
+use crate::registry::{ParameterError, ParameterType, Parameters, optional};
 use crate::signals::measurement::Gradient;
 
 /// Registry entry.
@@ -28,35 +29,25 @@ pub(crate) const KIND: ElementKind = ElementKind {
     summary: "Spring and damper between two points, along the line through them.",
     sample: "stiffness = 100.0\ndamping = 1.0",
     parameters: &[
-        Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness.").or_number(0.0),
-        Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping.").or_number(0.0),
-        Parameter::optional(
+        optional("stiffness", NotNegative, "N/m", "Stiffness.").or_number(0.0),
+        optional("damping", NotNegative, "N s/m", "Damping.").or_number(0.0),
+        optional(
             "force",
             ParameterType::Force(&["elongation", "rate"]),
             "N",
             "Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation`.",
         ),
-        Parameter::optional(
+        optional(
             "damper_force",
             ParameterType::Force(&["rate", "elongation"]),
             "N",
             "Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
         ),
         SIDE_OF_LENGTH,
-        Parameter::optional("limits", ParameterType::Range, "N", "Minimum and maximum force; default: none."),
-        Parameter::optional(
-            "backlash",
-            ParameterType::NotNegative,
-            "m",
-            "Width of the backlash about the free length, without force.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
-            "length",
-            ParameterType::NotNegative,
-            "m",
-            "Free length; default: the length at the start.",
-        ),
+        optional("limits", ParameterType::Range, "N", "Minimum and maximum force; default: none."),
+        optional("backlash", NotNegative, "m", "Width of the backlash about the free length, without force.")
+            .or_number(0.0),
+        optional("length", NotNegative, "m", "Free length; default: the length at the start."),
         PRELOAD_FORCE,
     ],
     ports: Ports::TWO_LOCATIONS,

@@ -29,7 +29,8 @@ use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics, Switch};
 use crate::ports::Ports;
-use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{NotNegative, Number, Positive};
+use crate::registry::{Function, ParameterError, ParameterType, Parameters, optional, required, unitless};
 use crate::signals::measurement::Gradient;
 use crate::wheels::wheel_on_plane::{Contact, DIRECTIONS};
 
@@ -44,79 +45,77 @@ pub const KIND: ElementKind = ElementKind {
     summary: "A wheel, disc or ball on a compliant plane with friction: it may lift off and slide.",
     sample: "normal = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]\nradius = 0.3\nstiffness = 1e6\nfriction_coefficient = 0.8",
     parameters: &[
-        Parameter::required(
+        required(
             "normal",
             ParameterType::Direction,
             "",
             "Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane.",
         ),
-        Parameter::required(
+        required(
             "wheel_axis",
             ParameterType::Direction,
             "",
             "Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre.",
         ),
-        Parameter::optional(
+        optional(
             "radius",
-            ParameterType::NotNegative,
+            NotNegative,
             "m",
             "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for \
             a ball of radius `rim`.",
         ),
-        Parameter::optional("rim", ParameterType::NotNegative, "m", "Rounding radius of the rim.").or_number(0.0),
-        Parameter::required("stiffness", ParameterType::Positive, "N/m", "Normal force per penetration."),
-        Parameter::optional(
+        optional("rim", NotNegative, "m", "Rounding radius of the rim.").or_number(0.0),
+        required("stiffness", Positive, "N/m", "Normal force per penetration."),
+        optional(
             "dissipation",
-            ParameterType::NotNegative,
+            NotNegative,
             "s/m",
             "Relative increase of the normal force per penetration velocity.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "damping",
-            ParameterType::NotNegative,
+            NotNegative,
             "N s/m",
             "Normal force per penetration velocity, while in contact.",
         ).or_number(0.0),
-        Parameter::optional(
+        unitless(
             "friction_coefficient",
-            ParameterType::NotNegative,
-            "",
+            NotNegative,
             "Coefficient of sliding friction.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "slip_velocity",
-            ParameterType::Positive,
+            Positive,
             "m/s",
             "Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps.",
         ).or_number(0.01),
-        Parameter::optional(
+        unitless(
             "traction",
             ParameterType::FunctionOf("slip"),
-            "",
             "Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`.",
         ),
-        Parameter::optional(
+        optional(
             "roller_angle",
-            ParameterType::Number,
+            Number,
             "rad",
             "Angle about the normal from the axis of the wheel to that of the roller in contact, for a wheel with free rollers on its rim: \
             friction acts along the axis of the roller.",
         ),
-        Parameter::optional(
+        optional(
             "rolling_friction",
-            ParameterType::NotNegative,
+            NotNegative,
             "m",
             "Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "rolling_damping",
-            ParameterType::NotNegative,
+            NotNegative,
             "m s/rad",
             "Additional moment per normal force and rolling rate.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "rolling_rate",
-            ParameterType::Positive,
+            Positive,
             "rad/s",
             "Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps.",
         ).or_number(0.01),

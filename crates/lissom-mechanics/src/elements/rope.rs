@@ -23,7 +23,8 @@ use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, MAX_NODES, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::ports::{PortDeclaration, PortType, Ports};
-use crate::registry::{Constant, Function, Parameter, ParameterError, ParameterType, Parameters, Value};
+use crate::registry::ParameterType::{NotNegative, Positive};
+use crate::registry::{Constant, Function, ParameterError, ParameterType, Parameters, Value, optional};
 use crate::signals::measurement::Gradient;
 
 /// Registry entry.
@@ -32,51 +33,51 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Rope that slides over several points without friction: pulleys, and hoists by its free length.",
     sample: "stiffness = 1e4\ndamping = 10.0\nlength = \"3 - 0.1*t\"",
     parameters: &[
-        Parameter::optional(
+        optional(
             "stiffness",
-            ParameterType::NotNegative,
+            NotNegative,
             "N/m",
             "Stiffness of the whole rope.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "damping",
-            ParameterType::NotNegative,
+            NotNegative,
             "N s/m",
             "Damping of the whole rope.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "force",
             ParameterType::Force(&["elongation", "rate"]),
             "N",
             "Tension over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation`.",
         ),
-        Parameter::optional(
+        optional(
             "damper_force",
             ParameterType::Force(&["rate", "elongation"]),
             "N",
             "Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
         ),
-        Parameter::optional(
+        optional(
             "limits",
             ParameterType::Range,
             "N",
             "Minimum and maximum tension; default: none.",
         ),
-        Parameter::optional(
+        optional(
             "length",
             ParameterType::Function,
             "m",
             "Free length of the whole rope; a function of time for a winch; default: the length at the start.",
         ),
-        Parameter::optional(
+        optional(
             "drum_radii",
             ParameterType::Numbers,
             "m",
             "Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up.",
         ),
-        Parameter::optional(
+        optional(
             "diameter",
-            ParameterType::Positive,
+            Positive,
             "m",
             "Diameter with which it is drawn; default: a thin line.",
         ),

@@ -10,7 +10,8 @@ use crate::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{NotNegative, Positive};
+use crate::registry::{COORDINATE, ParameterError, ParameterType, Parameters, optional, required, unitless};
 use crate::signals::measurement::Gradient;
 
 /// Registry entry of the stop of a rotation.
@@ -19,41 +20,23 @@ pub const TORSIONAL: ElementKind = ElementKind {
     summary: "Stops at the ends of the range of a joint's relative rotation.",
     sample: "range = [-0.1, 1.57]\nstiffness = 1e4",
     parameters: &[
-        Parameter::required(
+        required(
             "range",
             ParameterType::Range,
             "rad",
             "Rotations of the two stops; none at an infinite end.",
         ),
-        Parameter::required(
-            "stiffness",
-            ParameterType::Positive,
-            "N m/rad^n",
-            "Moment at a penetration of 1 rad.",
-        ),
-        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1.")
-            .or_number(1.0),
-        Parameter::optional(
-            "dissipation",
-            ParameterType::NotNegative,
-            "s/rad",
-            "Factor a of the penetration rate.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
-            "damping",
-            ParameterType::NotNegative,
-            "N m s/rad",
-            "Moment per penetration rate, while in contact.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
+        required("stiffness", Positive, "N m/rad^n", "Moment at a penetration of 1 rad."),
+        unitless("exponent", Positive, "Exponent n, at least 1.").or_number(1.0),
+        optional("dissipation", NotNegative, "s/rad", "Factor a of the penetration rate.").or_number(0.0),
+        optional("damping", NotNegative, "N m s/rad", "Moment per penetration rate, while in contact.")
+            .or_number(0.0),
+        unitless(
             "restitution",
-            ParameterType::Positive,
-            "",
+            Positive,
             "Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`.",
         ),
-        Parameter::optional("impact_velocity", ParameterType::Positive, "rad/s", "Rate of that impact."),
+        optional("impact_velocity", Positive, "rad/s", "Rate of that impact."),
         COORDINATE,
     ],
     ports: Ports::ROTATION,
@@ -66,36 +49,23 @@ pub const AXIAL: ElementKind = ElementKind {
     summary: "Stops at the ends of the range of a joint's relative displacement.",
     sample: "range = [-0.1, 0.05]\nstiffness = 1e6",
     parameters: &[
-        Parameter::required(
+        required(
             "range",
             ParameterType::Range,
             "m",
             "Displacements of the two stops; none at an infinite end.",
         ),
-        Parameter::required("stiffness", ParameterType::Positive, "N/m^n", "Force at a penetration of 1 m."),
-        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1.")
-            .or_number(1.0),
-        Parameter::optional(
-            "dissipation",
-            ParameterType::NotNegative,
-            "s/m",
-            "Factor a of the penetration rate.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
-            "damping",
-            ParameterType::NotNegative,
-            "N s/m",
-            "Force per penetration rate, while in contact.",
-        )
-        .or_number(0.0),
-        Parameter::optional(
+        required("stiffness", Positive, "N/m^n", "Force at a penetration of 1 m."),
+        unitless("exponent", Positive, "Exponent n, at least 1.").or_number(1.0),
+        optional("dissipation", NotNegative, "s/m", "Factor a of the penetration rate.").or_number(0.0),
+        optional("damping", NotNegative, "N s/m", "Force per penetration rate, while in contact.")
+            .or_number(0.0),
+        unitless(
             "restitution",
-            ParameterType::Positive,
-            "",
+            Positive,
             "Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`.",
         ),
-        Parameter::optional("impact_velocity", ParameterType::Positive, "m/s", "Velocity of that impact."),
+        optional("impact_velocity", Positive, "m/s", "Velocity of that impact."),
         COORDINATE,
     ],
     ports: Ports::DISPLACEMENT,

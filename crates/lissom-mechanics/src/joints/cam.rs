@@ -7,7 +7,7 @@ use super::kind::{Build, JointKind};
 use crate::law::{Interval, scaled, sum};
 use crate::ports::Ports;
 use crate::registry::{
-    Function, OTHER_COORDINATE, Parameter, ParameterError, ParameterType, WHICH_COORDINATE,
+    Function, OTHER_COORDINATE, ParameterError, ParameterType, WHICH_COORDINATE, required,
 };
 
 /// Registry entry.
@@ -16,7 +16,7 @@ pub const KIND: JointKind = JointKind {
     summary: "A coordinate of `other` is a function of a coordinate of `joint`, such as the profile of a cam.",
     sample: "profile = \"0.02*(1 - cos(x))\"",
     parameters: &[
-        Parameter::required(
+        required(
             "profile",
             ParameterType::FunctionOf("x"),
             "m or rad",

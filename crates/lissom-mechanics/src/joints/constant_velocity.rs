@@ -17,17 +17,16 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType};
+use crate::registry::{ParameterError, ParameterType, unitless};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "constant_velocity",
     summary: "Two shafts with a common point and any angle between them rotate by the same angle.",
     sample: "axis = [1.0, 0.0, 0.0]\ntip_axis = [0.9, 0.4, 0.0]",
-    parameters: &[Parameter::optional(
+    parameters: &[unitless(
         "tip_axis",
         ParameterType::Direction,
-        "",
         "Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft.",
     )],
     ports: Ports::AXIS,

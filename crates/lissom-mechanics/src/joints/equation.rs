@@ -2,14 +2,14 @@
 
 use super::kind::{Build, JointKind};
 use crate::ports::{PortDeclaration, PortType, Ports};
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::{ParameterType, required};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "equation",
     summary: "An expression of joint coordinates and time is zero: planetary gears, differentials, curves.",
     sample: "equation = \"my_hinge.angle - 2*my_slide.displacement\"",
-    parameters: &[Parameter::required(
+    parameters: &[required(
         "equation",
         ParameterType::Equation,
         "",

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::coupling::{Relation, RelationPoint};
 use super::kind::{Build, JointKind};
 use crate::ports::Ports;
-use crate::registry::{OTHER_COORDINATE, Parameter, ParameterType, WHICH_COORDINATE};
+use crate::registry::ParameterType::Number;
+use crate::registry::{OTHER_COORDINATE, ParameterType, WHICH_COORDINATE, required, unitless};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -13,18 +14,17 @@ pub const KIND: JointKind = JointKind {
     summary: "A coordinate of `other` changes by `ratio` times the change of a coordinate of `joint`: gears, racks, belts.",
     sample: "ratio = -2.5",
     parameters: &[
-        Parameter::required(
+        required(
             "ratio",
-            ParameterType::Number,
+            Number,
             "1, m/rad or rad/m",
             "Change of the dependent coordinate per change of the independent one; negative for external gears.",
         ),
         WHICH_COORDINATE,
         OTHER_COORDINATE,
-        Parameter::optional(
+        unitless(
             "relative",
             ParameterType::Flag,
-            "",
             "Whether it is meant to relate rotations relative to parts that turn against each other, which is warned about otherwise.",
         )
         .or_flag(false),

@@ -5,7 +5,7 @@ use super::Coordinate;
 use super::kind::{Build, JointKind};
 use crate::kinematics::Quantity;
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{ParameterError, ParameterType, Parameters, optional, required, unitless};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -13,22 +13,21 @@ pub const KIND: JointKind = JointKind {
     summary: "Generalised coordinates that belong to no part, for springs, loads, gears and `coordinate_dynamics`.",
     sample: "start = [0.1, 0.0]\n[springs.my_masses]\nkind = \"coordinate_dynamics\"\ncoordinates = [\"my_joint\"]\nmass = [2.0, 1.0]",
     parameters: &[
-        Parameter::required(
+        required(
             "start",
             ParameterType::Numbers,
             "m or rad",
             "Values at the start: as many as there are coordinates.",
         ),
-        Parameter::optional(
+        optional(
             "rate",
             ParameterType::Numbers,
             "m/s or rad/s",
             "Rates at the start, as many as in `start`; default zeros.",
         ),
-        Parameter::optional(
+        unitless(
             "rotations",
             ParameterType::Flag,
-            "",
             "Whether they are rotations [rad] instead of displacements [m].",
         )
         .or_flag(false),

@@ -21,7 +21,7 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType};
+use crate::registry::{ParameterError, ParameterType, required};
 
 /// What may be locked: translations along the joint frame's axes, and rotations about them.
 const WORDS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -31,7 +31,7 @@ pub const KIND: JointKind = JointKind {
     name: "generic",
     summary: "Locks chosen translations and rotations of the tip in the axes of the base.",
     sample: "locked = [\"x\", \"y\", \"rz\"]",
-    parameters: &[Parameter::required(
+    parameters: &[required(
         "locked",
         ParameterType::Choices(&WORDS),
         "",

@@ -2,7 +2,7 @@
 
 use super::kind::{Build, JointKind};
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Parameter, ParameterType};
+use crate::registry::{COORDINATE, ParameterType, required};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -10,7 +10,7 @@ pub const KIND: JointKind = JointKind {
     summary: "Prescribes a joint's relative displacement as a function of time.",
     sample: "displacement = \"0.1*sin(2*pi*t)\"",
     parameters: &[
-        Parameter::required(
+        required(
             "displacement",
             ParameterType::Function,
             "m",

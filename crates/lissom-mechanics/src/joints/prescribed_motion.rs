@@ -12,7 +12,7 @@
 use super::kind::{Build, JointKind};
 use crate::kinematics::Quantity;
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::{Parameter, ParameterType, optional, unitless};
 
 /// The components, in the order of their joints.
 pub const COMPONENTS: [(&str, Quantity); 6] = [
@@ -39,10 +39,9 @@ pub const KIND: JointKind = JointKind {
         rotation("rx", "Rotation about `axis` from the start."),
         rotation("ry", "Rotation about `second_axis` after its rotation by `rx`."),
         rotation("rz", "Rotation about the third axis after its rotations by `rx` and `ry`."),
-        Parameter::optional(
+        unitless(
             "free",
             ParameterType::Choices(&FREE),
-            "",
             "Components that are neither prescribed nor locked; default none.",
         ),
     ],
@@ -51,9 +50,9 @@ pub const KIND: JointKind = JointKind {
 };
 
 const fn displacement(name: &'static str, summary: &'static str) -> Parameter {
-    Parameter::optional(name, ParameterType::Function, "m", summary)
+    optional(name, ParameterType::Function, "m", summary)
 }
 
 const fn rotation(name: &'static str, summary: &'static str) -> Parameter {
-    Parameter::optional(name, ParameterType::Function, "rad", summary)
+    optional(name, ParameterType::Function, "rad", summary)
 }

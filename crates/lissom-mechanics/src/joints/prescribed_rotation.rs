@@ -2,7 +2,7 @@
 
 use super::kind::{Build, JointKind};
 use crate::ports::Ports;
-use crate::registry::{COORDINATE, Parameter, ParameterType};
+use crate::registry::{COORDINATE, ParameterType, required};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -10,12 +10,7 @@ pub const KIND: JointKind = JointKind {
     summary: "Prescribes a joint's relative rotation as a function of time.",
     sample: "rotation = \"0.5*sin(2*pi*t)\"",
     parameters: &[
-        Parameter::required(
-            "rotation",
-            ParameterType::Function,
-            "rad",
-            "The relative rotation as a function of time.",
-        ),
+        required("rotation", ParameterType::Function, "rad", "The relative rotation as a function of time."),
         COORDINATE,
     ],
     ports: Ports::ROTATION,

@@ -22,7 +22,8 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{NotNegative, Positive};
+use crate::registry::{ParameterError, ParameterType, Parameters, optional, required, unitless};
 use crate::round_off;
 use crate::wheels::wheel_on_plane::{Contact, upright};
 
@@ -32,35 +33,34 @@ pub const KIND: JointKind = JointKind {
     summary: "A wheel, disc or ball rolls on a plane of the base without sliding or lifting off.",
     sample: "axis = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]",
     parameters: &[
-        Parameter::required(
+        required(
             "wheel_axis",
             ParameterType::Direction,
             "",
             "Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre.",
         ),
-        Parameter::optional(
+        optional(
             "radius",
-            ParameterType::NotNegative,
+            NotNegative,
             "m",
             "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for \
             a ball of radius `rim`.",
         ),
-        Parameter::optional(
+        optional(
             "rim",
-            ParameterType::NotNegative,
+            NotNegative,
             "m",
             "Rounding radius of the rim; zero for a sharp edge.",
         )
         .or_number(0.0),
-        Parameter::optional(
+        unitless(
             "friction_coefficient",
-            ParameterType::Positive,
-            "",
+            Positive,
             "Coefficient of friction; a warning reports when rolling requires more; default: no limit.",
         ),
-        Parameter::optional(
+        optional(
             "creep",
-            ParameterType::NotNegative,
+            NotNegative,
             "m/(N s)",
             "Sliding velocity per force, a linear law of creep. It makes the forces of several wheels on one axle, which \
              constrain each other, unique.",

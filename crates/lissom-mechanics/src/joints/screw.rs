@@ -15,7 +15,8 @@ use super::{
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{ANGLE_AT_START, Parameter, ParameterType, RATE_AT_START};
+use crate::registry::ParameterType::Number;
+use crate::registry::{ANGLE_AT_START, RATE_AT_START, required};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -23,9 +24,9 @@ pub const KIND: JointKind = JointKind {
     summary: "The tip rotates about an axis and moves along it in proportion; the rotation is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]\nlead = 5e-3",
     parameters: &[
-        Parameter::required(
+        required(
             "lead",
-            ParameterType::Number,
+            Number,
             "m",
             "Displacement along `axis` per revolution; negative for a left-handed thread.",
         ),

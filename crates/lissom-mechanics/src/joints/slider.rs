@@ -23,17 +23,16 @@ use crate::joints::evaluation_point::Increments;
 use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, NodeMotion, Quantity};
 use crate::ports::{PortDeclaration, PortType, Ports};
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::{ParameterType, unitless};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "slider",
     summary: "A point of the tip slides along a flexible beam or a chain of beams, across element boundaries.",
     sample: "",
-    parameters: &[Parameter::optional(
+    parameters: &[unitless(
         "orientation",
         ParameterType::Choice(&["free", "tangent", "section"]),
-        "",
         "Rotation of the tip: \"free\"; with the line's \"tangent\", about which it rotates freely; or with the beam's \"section\", as on a spline shaft.",
     )
     .or_word("free")],

@@ -12,20 +12,15 @@ use super::{
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::ports::Ports;
-use crate::registry::{Parameter, ParameterError, ParameterType};
+use crate::registry::ParameterType::Number;
+use crate::registry::{ParameterError, optional};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "swing_arm",
     summary: "A massless link with a revolute joint at the base and a spherical joint at the tip.",
     sample: "axis = [0.0, 0.0, 1.0]",
-    parameters: &[Parameter::optional(
-        "angle",
-        ParameterType::Number,
-        "rad",
-        "Value of the link's angle at the start.",
-    )
-    .or_number(0.0)],
+    parameters: &[optional("angle", Number, "rad", "Value of the link's angle at the start.").or_number(0.0)],
     ports: Ports::ARM,
     build: Build::Relative(|parameters, geometry| {
         let angle = parameters.number("angle")?;

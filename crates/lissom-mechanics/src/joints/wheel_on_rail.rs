@@ -18,7 +18,8 @@ use super::{
 };
 use crate::kinematics::Quantity;
 use crate::ports::Ports;
-use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::{NotNegative, Number, Positive};
+use crate::registry::{Function, ParameterError, ParameterType, Parameters, optional, unitless};
 use crate::round_off;
 use crate::wheels::CreepLaw;
 use crate::wheels::profile::{RailProfile, WheelProfile};
@@ -38,110 +39,104 @@ pub const KIND: JointKind = JointKind {
     summary: "A wheel rolls on a straight rail of the base without lifting off, with creep forces if they are specified.",
     sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 0.0, 1.0]\nhead_radius = 0.3",
     parameters: &[
-        Parameter::optional(
+        unitless(
             "axle",
             ParameterType::Direction,
-            "",
             "Axis of the wheel at the start, global axes, through the tip's position; default: `axis`.",
         ),
-        Parameter::optional(
+        optional(
             "radius",
-            ParameterType::Positive,
+            Positive,
             "m",
             "Radius of the wheel at its nominal circle; default: the one with which it touches the rail at the start.",
         ),
-        Parameter::optional(
+        optional(
             "offset",
-            ParameterType::Number,
+            Number,
             "m",
             "Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the \
             rail's point `at` at the start.",
         ),
-        Parameter::optional(
+        optional(
             "cone_angle",
-            ParameterType::Number,
+            Number,
             "rad",
             "Cone angle of the wheel: its radius decreases outwards.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "wheel_profile",
             ParameterType::FunctionOf("y"),
             "m",
             "Instead of `cone_angle`: deviation from the nominal radius over the position `y` along the axis, outwards from the nominal \
             circle; requires `tread`.",
         ),
-        Parameter::optional(
+        optional(
             "tread",
             ParameterType::Range,
             "m",
             "Range of positions `y` at which the wheel may touch the rail; a warning reports contact outside; default: half the radius \
             in both directions.",
         ),
-        Parameter::optional(
+        optional(
             "head_radius",
-            ParameterType::Positive,
+            Positive,
             "m",
             "Radius of the rail's head, a circle through the point `at`.",
         ),
-        Parameter::optional(
+        optional(
             "cant",
-            ParameterType::Number,
+            Number,
             "rad",
             "Angle by which the head rises outwards at the point `at`; default `cone_angle`.",
         ),
-        Parameter::optional(
+        optional(
             "rail_profile",
             ParameterType::FunctionOf("y"),
             "m",
             "Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0.",
         ),
-        Parameter::optional(
+        unitless(
             "friction_coefficient",
-            ParameterType::Positive,
-            "",
+            Positive,
             "Limit of the creep force over the normal force; default: no creep forces.",
         ),
-        Parameter::optional(
+        optional(
             "shear_modulus",
-            ParameterType::Positive,
+            Positive,
             "N/m^2",
             "Shear modulus of wheel and rail, for creep forces.",
         ),
-        Parameter::optional(
+        unitless(
             "poisson_number",
-            ParameterType::NotNegative,
-            "",
+            NotNegative,
             "Poisson's ratio.",
         ).or_number(0.28),
-        Parameter::optional(
+        unitless(
             "kalker",
             ParameterType::Vector,
-            "",
             "Kalker's coefficients C11, C22 and C23 of longitudinal, lateral and spin creep.",
         ),
-        Parameter::optional(
+        unitless(
             "ellipse",
             ParameterType::Numbers,
-            "",
             "Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the \
             nominal curvatures.",
         ),
-        Parameter::optional(
+        optional(
             "velocity",
             ParameterType::GlobalVector,
             "m/s",
             "Velocity of the base along the rail in global axes, for models in axes that move with a vehicle.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "wheel_spin",
-            ParameterType::Number,
+            Number,
             "rad/s",
             "Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it.",
         ).or_number(0.0),
-        Parameter::optional(
+        unitless(
             "directions",
             ParameterType::Choice(&["exact", "small_angles"]),
-            "",
             "Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991.",
         )
         .or_word("exact"),

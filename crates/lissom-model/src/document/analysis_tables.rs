@@ -6,7 +6,7 @@ use super::analysis::{
     CONTACTS, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, DEFAULT_RELATIVE_TOLERANCE, DEFAULT_TOLERANCE,
     FORCES,
 };
-use crate::format::keys::{Key, Shape, choice, of_parameter, optional, required};
+use crate::format::keys::{Key, Shape, choice, of_parameter, optional, required, unitless};
 use crate::format::top_level::Variant;
 use crate::registry::{ChoiceEntry, Registry};
 
@@ -22,46 +22,40 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "what is computed",
             ),
             optional("start", Shape::Number, "s", "first time").or_number(0.0),
-            optional(
+            unitless(
                 "scaling",
                 choice(&["physical", "unit", "none"]),
-                "",
                 "scale of the equations",
             )
             .or_word("physical"),
-            optional(
+            unitless(
                 "equilibrated",
                 Shape::Flag,
-                "",
                 "equilibration of rows and columns of the scaled tangent",
             ).or_flag(true),
-            optional("augmented", Shape::Flag, "", "with the augmented Lagrangian term").or_flag(true),
-            optional("penalty", Shape::NotNegative, "", "factor of the augmented term").or_number(1e-3),
-            optional("solver", words(&registry.solvers), "", "linear solver"),
-            optional(
+            unitless("augmented", Shape::Flag, "with the augmented Lagrangian term").or_flag(true),
+            unitless("penalty", Shape::NotNegative, "factor of the augmented term").or_number(1e-3),
+            unitless("solver", words(&registry.solvers), "linear solver"),
+            unitless(
                 "tolerance",
                 Shape::Positive,
-                "",
                 "tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of \
                  `relative_tolerance`, or that of the scheme",
             )
             .or_number(DEFAULT_TOLERANCE),
-            optional(
+            unitless(
                 "max_iterations",
                 Shape::Count(1, 10_000),
-                "",
                 "maximum number of Newton iterations",
             ).or_count(40),
-            optional(
+            unitless(
                 "without",
                 Shape::Choices(&WORDS),
-                "",
                 "optional features of the nonlinear solver to be disabled, for studies; default none",
             ),
-            optional(
+            unitless(
                 "output_every",
                 Shape::Count(1, 1_000_000_000),
-                "",
                 "number of steps between records; default: every step, or several records in each adaptive step",
             ),
             optional(
@@ -70,10 +64,9 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "1/s",
                 "frames of the recorded motion per simulated second; default at most 600 over the run",
             ),
-            optional(
+            unitless(
                 "statistics_window",
                 Shape::Text,
-                "",
                 "part of the records from which statistics are computed, such as \"after=0.5\", \"last=0.2\" or \"after=impact\"; default all",
             ),
         ]
@@ -89,28 +82,25 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
 /// Keys of motions in time, with those that all runs have.
 fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
     let words = registry.schemes.iter().map(|entry| entry.name).collect();
-    dynamics.push(optional("scheme", Shape::Choice(words), "", "time integration scheme"));
-    dynamics.push(optional(
+    dynamics.push(unitless("scheme", Shape::Choice(words), "time integration scheme"));
+    dynamics.push(unitless(
         "contacts",
         Shape::Choice(CONTACTS.into()),
-        "",
         "how contacts of shapes are solved: as `elements` with events, or as one `set`, all touches of a step at once; default: that of \
          the scheme",
     ));
     dynamics.push(required("end", Shape::Number, "s", "last time"));
     dynamics.extend([
         optional("step", Shape::Positive, "s", "time step; with `relative_tolerance` the first step"),
-        optional(
+        unitless(
             "relative_tolerance",
             Shape::Between(1e-12, 0.1),
-            "",
             "tolerance of the local error of adaptive steps, relative to the motion, if `step` is omitted",
         )
         .or_number(DEFAULT_RELATIVE_TOLERANCE),
-        optional(
+        unitless(
             "control",
             choice(&["positions", FORCES]),
-            "",
             "errors that determine adaptive steps: those of `positions` (and velocities and states), or those of `forces` (and accelerations), too",
         )
         .or_word("positions"),
@@ -123,7 +113,7 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
         ),
     ]);
     dynamics.push(
-        optional("energy_check", Shape::Flag, "", "whether a spurious increase of energy is a failure")
+        unitless("energy_check", Shape::Flag, "whether a spurious increase of energy is a failure")
             .or_flag(true),
     );
     for parameter in registry.schemes.iter().flat_map(|scheme| scheme.parameters) {
@@ -139,26 +129,23 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
 /// Keys of load steps, with those that all runs have.
 fn load_steps(mut statics: Vec<Key>) -> Vec<Key> {
     statics.push(optional("end", Shape::Number, "s", "last time").or_number(1.0));
-    statics.push(optional(
+    statics.push(unitless(
         "steps",
         Shape::Count(1, 1_000_000),
-        "",
         "number of load steps; default: adaptive, by contraction and error",
     ));
     statics.push(
-        optional(
+        unitless(
             "relative_tolerance",
             Shape::Positive,
-            "",
             "tolerance of the relative work error of adaptive load steps",
         )
         .or_number(0.01),
     );
     statics.push(
-        optional(
+        unitless(
             "ramp",
             Shape::Flag,
-            "",
             "whether gravity and constant loads are ramped from zero over the load steps",
         )
         .or_flag(true),
@@ -177,24 +164,22 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
     }
     let mut path = under_loads.clone();
     path.extend([
-        optional("end", Shape::Number, "", "load factor at which the path ends; with `vary` the value at which it ends, which is required then").or_number(1.0),
-        optional("step", Shape::Positive, "", "first step of the load factor or of the number, default a fiftieth of the range"),
-        optional("steps", Shape::Count(1, 1_000_000), "", "maximum number of steps").or_count(1000),
-        optional("vary", Shape::Text, "", "number of the model file that is varied from its value there, such as `parameters.height`; default: the load factor"),
-        optional("branch", Shape::Between(-1000.0, 1000.0), "", "number of the bifurcation at which the path continues on the branch, from 1; negative for the opposite direction of the branch, zero for none").or_number(0.0),
+        unitless("end", Shape::Number, "load factor at which the path ends; with `vary` the value at which it ends, which is required then").or_number(1.0),
+        unitless("step", Shape::Positive, "first step of the load factor or of the number, default a fiftieth of the range"),
+        unitless("steps", Shape::Count(1, 1_000_000), "maximum number of steps").or_count(1000),
+        unitless("vary", Shape::Text, "number of the model file that is varied from its value there, such as `parameters.height`; default: the load factor"),
+        unitless("branch", Shape::Between(-1000.0, 1000.0), "number of the bifurcation at which the path continues on the branch, from 1; negative for the opposite direction of the branch, zero for none").or_number(0.0),
     ]);
     let mut buckling = under_loads;
     buckling.push(
-        optional("count", Shape::Count(1, 10_000), "", "number of load factors")
-            .or_count(DEFAULT_BUCKLING_COUNT),
+        unitless("count", Shape::Count(1, 10_000), "number of load factors").or_count(DEFAULT_BUCKLING_COUNT),
     );
     let mut modes = common;
     modes.extend([
-        optional("count", Shape::Count(1, 100_000), "", "number of modes").or_count(DEFAULT_MODE_COUNT),
-        optional(
+        unitless("count", Shape::Count(1, 100_000), "number of modes").or_count(DEFAULT_MODE_COUNT),
+        unitless(
             "about",
             choice(&["static", "undeformed"]),
-            "",
             "static equilibrium under the loads at the time `start`, or the undeformed state without loads and gravity",
         )
         .or_word("static"),

@@ -4,7 +4,7 @@ use lissom_mechanics::ports::Ports;
 use lissom_motion::Vector3;
 
 use super::initial::parts;
-use crate::format::keys::{Key, Shape, optional};
+use crate::format::keys::{Key, Shape, optional, unitless};
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
 use crate::text::report::{Located, Problem, Span};
@@ -37,16 +37,14 @@ pub struct OnTip {
 /// Keys of `[assembly]`.
 pub(super) fn keys() -> Vec<Key> {
     vec![
-        optional(
+        unitless(
             "fixed",
             Shape::Names,
-            "",
             "bodies, point masses, beams, shells, solids, superelements and entries of [parts] that are not moved",
         ),
-        optional(
+        unitless(
             "tolerance",
             Shape::Positive,
-            "",
             "tolerance of closed joints, relative to the size of the model; for angles [rad]",
         )
         .or_number(DEFAULT_ASSEMBLY_TOLERANCE),
@@ -67,12 +65,12 @@ pub(super) fn keys_on_tip(ports: Ports) -> Vec<Key> {
     if ports.directions() > 0 {
         let words =
             "direction of `axis` on the tip in its approximate position, if different; requires `at_tip`";
-        keys.push(optional("axis_at_tip", Shape::Direction, "", words));
+        keys.push(unitless("axis_at_tip", Shape::Direction, words));
     }
     if ports.directions() > 1 {
         let words =
             "direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`";
-        keys.push(optional("second_axis_at_tip", Shape::Direction, "", words));
+        keys.push(unitless("second_axis_at_tip", Shape::Direction, words));
     }
     keys
 }

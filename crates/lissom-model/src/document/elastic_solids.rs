@@ -13,7 +13,7 @@ use super::entries::each;
 use super::meshes::{divisions, file, formula, one_of, sets};
 use super::temperatures::{self, check_expansion};
 use crate::expression::Formula;
-use crate::format::keys::{Key, Shape, optional, required};
+use crate::format::keys::{Key, Shape, optional, required, unitless};
 use crate::format::part_tables::placed_in;
 use crate::parts::context::Context;
 use crate::reading::mesh_nodes::{ALL, nodes_at};
@@ -72,37 +72,28 @@ pub(super) fn keys() -> Vec<Key> {
             "m",
             "instead of `size`: x, y and z over u, v and w from 0 to 1, which are right-handed",
         ),
-        optional(
+        unitless(
             "divisions",
             Shape::VolumeDivisions,
-            "",
             "of `size` and `volume`: numbers of elements along u, v and w",
         ),
-        optional(
+        unitless(
             "mesh",
             Shape::Text,
-            "",
             "instead of `size`: a Gmsh (.msh) or Abaqus (.inp) file; path relative to this file",
         ),
-        optional(
-            "group",
-            Shape::Text,
-            "",
-            "of a mesh: the set of its elements to be used; default all solids",
-        ),
-        optional("scale", Shape::Positive, "", "of a mesh: factor to metres").or_number(1.0),
-        optional(
+        unitless("group", Shape::Text, "of a mesh: the set of its elements to be used; default all solids"),
+        unitless("scale", Shape::Positive, "of a mesh: factor to metres").or_number(1.0),
+        unitless(
             "join",
             Shape::Flag,
-            "",
             "whether nodes at the same position are one, as along the seam of a ring",
         )
         .or_flag(false),
         required("material", Shape::Name("materials"), "", "the material"),
-        optional(
+        unitless(
             "model",
             Shape::Choice(["st-venant-kirchhoff", "neo-hookean", "mooney-rivlin"].as_slice().into()),
-            "",
             "law of elasticity: for small strains, or for rubber",
         )
         .or_word("st-venant-kirchhoff"),
@@ -119,10 +110,9 @@ pub(super) fn keys() -> Vec<Key> {
             "Pa",
             "force per area against the outward normal, which it follows: `{ SET = expression }` of t and of the present place x, y, z",
         ),
-        optional(
+        unitless(
             "sets",
             Shape::Table,
-            "",
             "named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`",
         ),
         temperatures::key(),

@@ -5,7 +5,7 @@ use lissom_mechanics::signals::event::Direction;
 use super::analysis::{Analysis, AnalysisKind};
 use super::entries::each;
 use crate::expression::Formula;
-use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::keys::{Key, Shape, choice, required, unitless};
 use crate::format::suggest;
 use crate::parts::context::Context;
 use crate::text::Value;
@@ -30,13 +30,12 @@ pub struct EventEntry {
 pub(super) fn keys() -> Vec<Key> {
     vec![
         required("zero_of", Shape::Formula, "", "the event occurs when this expression crosses zero"),
-        optional("direction", choice(&["both", "rising", "falling"]), "", "direction of the crossing")
+        unitless("direction", choice(&["both", "rising", "falling"]), "direction of the crossing")
             .or_word("both"),
-        optional("stop", Shape::Flag, "", "whether the run ends at the event").or_flag(false),
-        optional(
+        unitless("stop", Shape::Flag, "whether the run ends at the event").or_flag(false),
+        unitless(
             "set",
             Shape::Table,
-            "",
             "inputs to be changed by the event, with expressions of their new values",
         ),
     ]

@@ -6,7 +6,7 @@ use lissom_contact::forms::PlacedSolid;
 use lissom_motion::Vector3;
 
 use super::solids::shape;
-use crate::format::keys::{Key, Shape, optional};
+use crate::format::keys::{Key, Shape, unitless};
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
 use crate::registry::Registry;
@@ -24,8 +24,8 @@ pub struct Ground {
 /// Keys of `[ground]`.
 pub(super) fn keys() -> Vec<Key> {
     vec![
-        optional("shape", Shape::Solid, "", "solids, in global axes; by default at the origin"),
-        optional("mesh", Shape::Text, "", "instead of `shape`: an STL or glTF file in metres, drawn only"),
+        unitless("shape", Shape::Solid, "solids, in global axes; by default at the origin"),
+        unitless("mesh", Shape::Text, "instead of `shape`: an STL or glTF file in metres, drawn only"),
     ]
 }
 

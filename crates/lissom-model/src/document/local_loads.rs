@@ -12,7 +12,7 @@ use lissom_motion::{Motion, Vector3};
 use super::NodeReference;
 use super::entries::each;
 use crate::expression::{self, Formula};
-use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::keys::{Key, Shape, choice, optional, required, unitless};
 use crate::format::part_tables::placed_in;
 use crate::format::suggest;
 use crate::functions::table_family::TableFamily;
@@ -133,10 +133,9 @@ pub(super) fn keys() -> Vec<Key> {
         placed_in(),
         required("on", Shape::Node, "", "a beam, along which it is distributed, or a node"),
         optional("at", Shape::Place, "m", "where it acts on a node, at the start; default the node"),
-        optional(
+        unitless(
             "axes",
             choice(&AXES),
-            "",
             "axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too",
         )
         .or_word(AXES[0]),
@@ -153,16 +152,14 @@ pub(super) fn keys() -> Vec<Key> {
             "m/s",
             "velocity of the surrounding fluid in global axes, or with `axes = \"part\"` in those of the part: three numbers or expressions of x, y, z, t and inputs",
         ),
-        optional(
+        unitless(
             "variables",
             Shape::Table,
-            "",
             "named expressions for use in the others; or { of = \"…\", table = [[…]] }, a table over an expression",
         ),
-        optional(
+        unitless(
             "states",
             Shape::Table,
-            "",
             "first-order states at each point: { derivative = \"…\", start = 0, magnitude = 1 }",
         ),
     ]
@@ -171,8 +168,8 @@ pub(super) fn keys() -> Vec<Key> {
 fn state_keys() -> Vec<Key> {
     vec![
         required("derivative", Shape::Formula, "1/s", "expression of its derivative by time"),
-        optional("start", Shape::Number, "", "value at the start").or_number(0.0),
-        optional("magnitude", Shape::Positive, "", "usual magnitude, by which errors are measured")
+        unitless("start", Shape::Number, "value at the start").or_number(0.0),
+        unitless("magnitude", Shape::Positive, "usual magnitude, by which errors are measured")
             .or_number(1.0),
     ]
 }

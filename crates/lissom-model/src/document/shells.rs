@@ -11,7 +11,7 @@ use super::entries::each;
 use super::meshes::{divisions, file, formula, one_of, sets};
 use super::temperatures::{self, check_expansion};
 use crate::expression::Formula;
-use crate::format::keys::{Key, Shape, optional, required};
+use crate::format::keys::{Key, Shape, optional, required, unitless};
 use crate::format::part_tables::placed_in;
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
@@ -117,24 +117,17 @@ pub(super) fn keys() -> Vec<Key> {
             "four corners of a patch, counterclockwise about its normal: u = v = 0; u = 1; u = v = 1; v = 1",
         ),
         optional("surface", Shape::Surface, "m", "instead of `corners`: x, y and z over u and v from 0 to 1"),
-        optional("divisions", Shape::Divisions, "", "of a patch: numbers of elements along u and v"),
-        optional(
+        unitless("divisions", Shape::Divisions, "of a patch: numbers of elements along u and v"),
+        unitless(
             "mesh",
             Shape::Text,
-            "",
             "instead of `corners`: a Gmsh (.msh), Abaqus (.inp) or Wavefront (.obj) file; path relative to this file",
         ),
-        optional(
-            "group",
-            Shape::Text,
-            "",
-            "of a mesh: the set of its elements to be used; default all surfaces",
-        ),
-        optional("scale", Shape::Positive, "", "of a mesh: factor to metres").or_number(1.0),
-        optional(
+        unitless("group", Shape::Text, "of a mesh: the set of its elements to be used; default all surfaces"),
+        unitless("scale", Shape::Positive, "of a mesh: factor to metres").or_number(1.0),
+        unitless(
             "join",
             Shape::Flag,
-            "",
             "whether nodes at the same position are one, as along the seam of a tube",
         )
         .or_flag(false),
@@ -144,7 +137,7 @@ pub(super) fn keys() -> Vec<Key> {
             "m",
             "a number or an expression of u and v; it or `plies` is required, unless the file of the mesh has one section for all elements",
         ),
-        optional("material", Shape::Name("materials"), "", "of `thickness`, and of plies without their own"),
+        unitless("material", Shape::Name("materials"), "of `thickness`, and of plies without their own"),
         optional(
             "offset",
             Shape::Number,
@@ -153,11 +146,10 @@ pub(super) fn keys() -> Vec<Key> {
         )
         .or_number(0.0),
         optional("damping", Shape::NotNegative, "s", "damping in proportion to the stiffness").or_number(0.0),
-        optional("plies", Shape::Plies, "", "layers of a laminate from the bottom to the top of the normal"),
-        optional(
+        unitless("plies", Shape::Plies, "layers of a laminate from the bottom to the top of the normal"),
+        unitless(
             "direction",
             Shape::Direction,
-            "",
             "projected on the surface, the first local axis, from which angles of plies count; default the direction of u of a patch, global x of a mesh",
         ),
         optional(
@@ -185,10 +177,9 @@ pub(super) fn keys() -> Vec<Key> {
             "Pa",
             "in global axes, fixed in direction: three numbers or expressions of u, v and t",
         ),
-        optional(
+        unitless(
             "sets",
             Shape::Table,
-            "",
             "named nodes: `{ near = [x, y, z] }`, `{ center = [x, y, z], radius = r }` or `{ from = [x, y, z], to = [x, y, z] }`",
         ),
         temperatures::key(),
@@ -207,15 +198,10 @@ impl Shape {
         vec![
             required("thickness", Self::Thickness, "m", "a number or an expression of u and v"),
             optional("angle", Self::Number, "rad", "from the first local axis to its fibres").or_number(0.0),
-            optional(
-                "material",
-                Self::Name("materials"),
-                "",
-                "isotropic material; default that of the shell",
-            ),
+            unitless("material", Self::Name("materials"), "isotropic material; default that of the shell"),
             optional("E1", Self::Positive, "Pa", "Young's modulus along the fibres, instead of a material"),
             optional("E2", Self::Positive, "Pa", "Young's modulus across the fibres"),
-            optional("nu12", Self::Number, "", "contraction across over extension along the fibres"),
+            unitless("nu12", Self::Number, "contraction across over extension along the fibres"),
             optional("G12", Self::Positive, "Pa", "shear modulus in the plane"),
             optional("G13", Self::Positive, "Pa", "transverse shear modulus along the fibres; default `G12`"),
             optional(

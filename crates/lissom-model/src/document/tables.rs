@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::analysis_tables::analyses;
-use crate::format::keys::{Key, Shape, choice, of_parameter, of_port, optional, required};
+use crate::format::keys::{Key, Shape, choice, of_parameter, of_port, optional, required, unitless};
 use crate::format::part_tables::{initial, part, placed_in, superelement};
 use crate::format::top_level::{Variant, Variants};
 use crate::outputs::kinds::{Feature, OutputKind, Subject};
@@ -74,7 +74,7 @@ fn single(keys: Vec<Key>) -> Variant {
 fn material() -> Vec<Key> {
     vec![
         required("E", Shape::Positive, "Pa", "Young's modulus"),
-        optional("nu", Shape::Number, "", "Poisson's ratio; either it or `G` is required"),
+        unitless("nu", Shape::Number, "Poisson's ratio; either it or `G` is required"),
         optional("G", Shape::Positive, "Pa", "shear modulus; either it or `nu` is required"),
         required("density", Shape::Positive, "kg/m³", "mass density"),
         optional("expansion", Shape::Number, "1/K", "strain per change of temperature").or_number(0.0),
@@ -88,7 +88,7 @@ fn sections() -> Vec<Variant> {
             keys.push(required("material", Shape::Name("materials"), "", "name of a material"));
             let words =
                 "shear coefficient: one or two numbers (along 2 and 3), \"cowper\" (default) or \"renton\"";
-            own.push(optional("shear", Shape::Shear, "", words));
+            own.push(unitless("shear", Shape::Shear, words));
         }
         keys.append(&mut own);
         let damping = "damping in proportion to the stiffness";
@@ -113,16 +113,14 @@ fn sections() -> Vec<Variant> {
 fn beam() -> Vec<Key> {
     vec![
         placed_in(),
-        optional(
+        unitless(
             "section",
             Shape::Name("sections"),
-            "",
             "name of a section; either it or `stations` is required",
         ),
-        optional(
+        unitless(
             "stations",
             Shape::Stations,
-            "",
             "[{ at = 0, section = \"a\" }, …, { at = 1, … }], interpolated linearly",
         ),
         optional(
@@ -140,8 +138,8 @@ fn beam() -> Vec<Key> {
         optional("through", Shape::Place, "m", "an intermediate point: the beam is a circular arc"),
         optional("curve", Shape::Curve, "m", "instead of `from` and `to`: three expressions of s in 0..1"),
         required("elements", Shape::Count(1, 100_000), "", "number of elements"),
-        optional("order", Shape::Count(1, 3), "", "1, 2 or 3: elements of 2, 3 or 4 nodes").or_count(3),
-        optional("up", Shape::Direction, "", "direction towards which local axis 3 is oriented"),
+        unitless("order", Shape::Count(1, 3), "1, 2 or 3: elements of 2, 3 or 4 nodes").or_count(3),
+        unitless("up", Shape::Direction, "direction towards which local axis 3 is oriented"),
         optional(
             "force_per_length",
             Shape::Distribution,
@@ -192,18 +190,16 @@ fn body() -> Vec<Key> {
         ),
         optional("position", Shape::Place, "m", "position of the reference frame"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of the reference frame"),
-        optional("axes", Shape::Axes, "", "instead of `rotation`: first and second body axis"),
+        unitless("axes", Shape::Axes, "instead of `rotation`: first and second body axis"),
         optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
-        optional(
+        unitless(
             "shape",
             Shape::Solid,
-            "",
             "what is drawn of it, about the centre of mass; default: a solid with its inertia; [] draws nothing",
         ),
-        optional(
+        unitless(
             "mesh",
             Shape::Text,
-            "",
             "instead of `shape`: an STL or glTF file in metres and body axes; path relative to this file",
         ),
         optional("velocity", Shape::GlobalVector, "m/s", "of the reference point at the start, global axes"),
@@ -216,12 +212,11 @@ fn point_mass() -> Vec<Key> {
         placed_in(),
         required("mass", Shape::Positive, "kg", "mass"),
         optional("position", Shape::Place, "m", "position at the start"),
-        optional("plane", choice(&["xy", "yz", "zx"]), "", "restricts the motion to this plane"),
-        optional("shape", Shape::Solid, "", "solid to be drawn about its position; default: a ball"),
-        optional(
+        unitless("plane", choice(&["xy", "yz", "zx"]), "restricts the motion to this plane"),
+        unitless("shape", Shape::Solid, "solid to be drawn about its position; default: a ball"),
+        unitless(
             "mesh",
             Shape::Text,
-            "",
             "instead of `shape`: an STL or glTF file in metres, along the global axes; path relative to this file",
         ),
         optional("velocity", Shape::GlobalVector, "m/s", "at the start, global axes"),
@@ -246,11 +241,11 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
     for (variant, entry) in variants.iter_mut().zip(table) {
         if entry.ports.may_have_friction() {
             let words = "friction on its only coordinate";
-            variant.keys.push(optional("friction", Shape::Friction, "", words));
+            variant.keys.push(unitless("friction", Shape::Friction, words));
             let words = "latch that engages when its only coordinate first reaches the value `at`, and locks it there";
-            variant.keys.push(optional("latch", Shape::Latch, "", words));
+            variant.keys.push(unitless("latch", Shape::Latch, words));
             let words = "the latch releases when this expression rises through zero; without `latch` it is engaged from the start";
-            variant.keys.push(optional("release", Shape::Formula, "", words));
+            variant.keys.push(unitless("release", Shape::Formula, words));
         }
         variant.keys.extend(super::assembly::keys_on_tip(entry.ports));
     }
@@ -260,11 +255,10 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
 fn state() -> Vec<Key> {
     vec![
         required("derivative", Shape::Formula, "1/s", "time derivative"),
-        optional("start", Shape::Number, "", "value at the start").or_number(0.0),
-        optional(
+        unitless("start", Shape::Number, "value at the start").or_number(0.0),
+        unitless(
             "magnitude",
             Shape::Positive,
-            "",
             "typical magnitude, relative to which errors are measured unless its value is larger",
         )
         .or_number(1.0),
@@ -278,7 +272,7 @@ fn outputs() -> Vec<Variant> {
         keys.extend(output_subject(kind.subject()));
         keys.extend(kind.features().iter().flat_map(|&feature| output_option(feature)));
         let words = "plot in which it is drawn together with other outputs of the same word; default its own";
-        keys.push(optional("plot", Shape::Text, "", words));
+        keys.push(unitless("plot", Shape::Text, words));
         Variant { word: kind.name(), summary: kind.summary(), keys }
     };
     OutputKind::all().map(variant).collect()
@@ -315,10 +309,9 @@ fn output_subject(subject: Subject) -> Option<Key> {
 fn output_option(feature: Feature) -> Vec<Key> {
     match feature {
         Feature::JointAxes => vec![
-            optional(
+            unitless(
                 "axes",
                 choice(&super::ReactionAxes::WORDS),
-                "",
                 "global axes, or those of the joint frame fixed in base or tip",
             )
             .or_word("ground"),
@@ -331,35 +324,32 @@ fn output_option(feature: Feature) -> Vec<Key> {
         )],
         Feature::Station => {
             let words = "fraction of the length of the beam along which the load acts, at one of its nodes; default the whole load";
-            vec![optional("station", Shape::Between(0.0, 1.0), "", words)]
+            vec![unitless("station", Shape::Between(0.0, 1.0), words)]
         }
-        Feature::Unit => vec![optional(
+        Feature::Unit => vec![unitless(
             "unit",
             Shape::Text,
-            "",
             "unit of its values, such as \"kN\", for plots and tables; default none",
         )],
         Feature::Fatigue => vec![
-            optional(
+            unitless(
                 "woehler_exponent",
                 Shape::Positive,
-                "",
                 "exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component",
             ),
-            optional(
+            unitless(
                 "reference_cycles",
                 Shape::Positive,
-                "",
                 "number of cycles of the damage equivalent range; default one per second of the run",
             ),
         ],
         Feature::Observer => {
             let words = "body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground";
-            vec![optional("relative_to", Shape::Node, "", words)]
+            vec![unitless("relative_to", Shape::Node, words)]
         }
         Feature::Axes => {
             let words = "body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`";
-            vec![optional("in", Shape::Node, "", words)]
+            vec![unitless("in", Shape::Node, words)]
         }
         Feature::Point => {
             vec![optional(

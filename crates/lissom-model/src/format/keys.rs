@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use lissom_mechanics::ports::{PortDeclaration, PortType};
-use lissom_mechanics::registry::{DefaultValue, Parameter, ParameterType};
+use lissom_mechanics::registry::{Declared, Parameter, ParameterType};
+pub(crate) use lissom_mechanics::registry::{optional, required, unitless};
 
 use super::solid_kinds::SOLID_KINDS;
 pub(crate) use super::value_types::Shape;
@@ -37,8 +38,8 @@ impl Shape {
     /// Keys of a signal that is given by a table.
     pub(crate) fn signal_keys() -> Vec<Key> {
         let mut keys = vec![
-            optional("value", Self::Formula, "", "its expression; either it or `of` is required"),
-            optional("of", Self::Formula, "", "the expression over which a table is"),
+            unitless("value", Self::Formula, "its expression; either it or `of` is required"),
+            unitless("of", Self::Formula, "the expression over which a table is"),
             optional(
                 "sample",
                 Self::Positive,
@@ -51,22 +52,19 @@ impl Shape {
                 "s",
                 "the signal is the value of its expression this time earlier; excludes `sample`",
             ),
-            optional(
+            unitless(
                 "start",
                 Self::Number,
-                "",
                 "value before the first sample, zero if it is omitted; with `delay` the value before the start, default the expression there",
             ),
-            optional(
+            unitless(
                 "numerator",
                 Self::Numbers,
-                "",
                 "of a discrete filter: [b0, b1, …] of the expression's present and past samples",
             ),
-            optional(
+            unitless(
                 "denominator",
                 Self::Numbers,
-                "",
                 "of a discrete filter: [1, a1, …] of the signal's present and past samples, default [1]",
             ),
         ];
@@ -82,10 +80,9 @@ impl Shape {
     /// Keys of an inertia that is given by a solid.
     pub(crate) fn solid_keys() -> Vec<Key> {
         vec![
-            optional(
+            unitless(
                 "kind",
                 choice(&["box", "cylinder", "tube", "sphere", "capsule", "ellipsoid"]),
-                "",
                 "which solid it is",
             ),
             optional("sides", Self::Vector, "m", "of a box, along the body axes"),
@@ -102,7 +99,7 @@ impl Shape {
                 "m",
                 "of a cylinder or tube; of a capsule between the centres of its ends",
             ),
-            optional("axis", Self::BodyDirection, "", "of a cylinder, tube or capsule, body axes; default z"),
+            unitless("axis", Self::BodyDirection, "of a cylinder, tube or capsule, body axes; default z"),
             optional("semi_axes", Self::Vector, "m", "of an ellipsoid, along the body axes"),
             optional("box", Self::Vector, "m", "sides along the body axes, instead of `kind` and dimensions"),
             optional("cylinder", Self::Pair, "m", "[radius, length], instead of `kind` and dimensions"),
@@ -127,10 +124,9 @@ impl Shape {
                 "m",
                 "of an outline [x, y], the corners of a prism along z in their order, or of a hull [x, y, z], its corners",
             ),
-            optional(
+            unitless(
                 "smooth",
                 Self::Flag,
-                "",
                 "of an outline: whether a smooth curve passes through its points, as for a cam",
             ).or_flag(false),
             optional(
@@ -140,15 +136,14 @@ impl Shape {
                 "of a height field: by row along y, in each row along x",
             ),
             optional("extent", Self::Pair, "m", "of a height field: its sides along x and y"),
-            optional(
+            unitless(
                 "normal",
                 Self::BodyDirection,
-                "",
                 "of a plane, body axes: out of the solid half-space; default z",
             ),
-            optional("file", Self::Text, "", "of a mesh: an STL or glTF file; path relative to this file"),
-            optional("touches", Self::Flag, "", "whether contacts of the part include it").or_flag(true),
-            optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres").or_number(1.0),
+            unitless("file", Self::Text, "of a mesh: an STL or glTF file; path relative to this file"),
+            unitless("touches", Self::Flag, "whether contacts of the part include it").or_flag(true),
+            unitless("scale", Self::Vector, "of a mesh: factors along its axes, to metres").or_number(1.0),
             optional(
                 "position",
                 Self::Vector,
@@ -201,72 +196,7 @@ impl Shape {
 }
 
 /// One key of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Key {
-    /// Word in the model file.
-    pub(crate) name: &'static str,
-    /// Shape of its value.
-    pub(crate) holds: Shape,
-    /// Whether it must be given.
-    pub(crate) required: bool,
-    /// Unit, as in `kg/m³`; empty for none.
-    pub(crate) unit: &'static str,
-    /// One sentence, without the default.
-    pub(crate) summary: &'static str,
-    /// The value where it is omitted, if that is a constant.
-    pub(crate) default: Option<DefaultValue>,
-}
-
-impl Key {
-    fn or(self, default: DefaultValue) -> Self {
-        Self { default: Some(default), ..self }
-    }
-
-    /// The same with this number as its default.
-    pub(crate) fn or_number(self, value: f64) -> Self {
-        self.or(DefaultValue::Number(value))
-    }
-
-    /// The same with this count as its default.
-    pub(crate) fn or_count(self, value: usize) -> Self {
-        self.or(DefaultValue::Number(value as f64))
-    }
-
-    /// The same with this default.
-    pub(crate) fn or_flag(self, value: bool) -> Self {
-        self.or(DefaultValue::Flag(value))
-    }
-
-    /// The same with this word as its default.
-    pub(crate) fn or_word(self, word: &'static str) -> Self {
-        self.or(DefaultValue::Word(word))
-    }
-
-    /// Its summary with the default.
-    pub(crate) fn meaning(&self) -> String {
-        DefaultValue::in_words(self.default, self.summary)
-    }
-}
-
-/// A key that must be given.
-pub(crate) const fn required(
-    name: &'static str,
-    holds: Shape,
-    unit: &'static str,
-    summary: &'static str,
-) -> Key {
-    Key { name, holds, required: true, unit, summary, default: None }
-}
-
-/// A key that may be omitted.
-pub(crate) const fn optional(
-    name: &'static str,
-    holds: Shape,
-    unit: &'static str,
-    summary: &'static str,
-) -> Key {
-    Key { name, holds, required: false, unit, summary, default: None }
-}
+pub(crate) type Key = Declared<Shape>;
 
 /// A choice among fixed words.
 pub(crate) const fn choice(words: &'static [&'static str]) -> Shape {
@@ -324,30 +254,22 @@ pub(crate) fn of_port(port: &PortDeclaration) -> Option<Key> {
 pub(crate) fn table_keys() -> Vec<Key> {
     let words = choice(&["linear", "spline", "monotone"]);
     vec![
-        optional(
+        unitless(
             "table",
             Shape::Rows,
-            "",
             "rows [argument, value] with ascending arguments; either it or `file` is required",
         ),
-        optional(
-            "file",
-            Shape::Text,
-            "",
-            "a text file with named columns; relative to the file that names it",
-        ),
-        optional("columns", Shape::Words, "", "names of its two columns; default the first two"),
-        optional("interpolation", words, "", "between the rows").or_word("linear"),
-        optional(
+        unitless("file", Shape::Text, "a text file with named columns; relative to the file that names it"),
+        unitless("columns", Shape::Words, "names of its two columns; default the first two"),
+        unitless("interpolation", words, "between the rows").or_word("linear"),
+        unitless(
             "extrapolation",
             choice(&["constant", "linear"]),
-            "",
             "beyond the rows; default constant, for forces over an elongation, rotation or rate linear",
         ),
-        optional(
+        unitless(
             "period",
             Shape::Number,
-            "",
             "argument after which the rows are repeated, such as `2*pi` for one turn of a cam; with `spline` or `monotone`",
         ),
     ]

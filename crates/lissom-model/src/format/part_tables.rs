@@ -1,14 +1,13 @@
 //! Keys of parts, of positions relative to parts, and of motions at the start.
 
 use super::top_level::{TOP, has_named_entries};
-use crate::format::keys::{Key, Shape, optional, required};
+use crate::format::keys::{Key, Shape, optional, required, unitless};
 
 /// Key of the part in whose frame an entry is placed.
 pub(crate) fn placed_in() -> Key {
-    optional(
+    unitless(
         "in",
         Shape::Text,
-        "",
         "body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part",
     )
 }
@@ -16,37 +15,29 @@ pub(crate) fn placed_in() -> Key {
 /// Keys of a part.
 pub(crate) fn part() -> Vec<Key> {
     let mut keys = vec![
-        optional("include", Shape::Text, "", "path of the file with its contents, relative to this file"),
-        optional(
+        unitless("include", Shape::Text, "path of the file with its contents, relative to this file"),
+        unitless(
             "like",
             Shape::Text,
-            "",
             "part of the same table of which it is a copy, at another position and orientation",
         ),
-        optional(
+        unitless(
             "count",
             Shape::Count(1, 20_000),
-            "",
             "number of copies `name1`, `name2` …; `index` and `count` are parameters in each",
         ),
         placed_in(),
         optional("position", Shape::Place, "m", "position of its origin"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
-        optional(
-            "parameters",
-            Shape::Table,
-            "",
-            "values of its parameters, instead of the defaults in its file",
-        ),
-        optional(
+        unitless("parameters", Shape::Table, "values of its parameters, instead of the defaults in its file"),
+        unitless(
             "names",
             Shape::Table,
-            "",
             "names in the included file that refer to entries outside, such as { hub = \"hub\" }",
         ),
     ];
     let tables = TOP.iter().filter(|top| has_named_entries(top.name) && top.name != "parameters");
-    keys.extend(tables.map(|top| optional(top.name, Shape::Entries(top.name), "", top.summary)));
+    keys.extend(tables.map(|top| unitless(top.name, Shape::Entries(top.name), top.summary)));
     keys
 }
 
@@ -60,24 +51,21 @@ pub(crate) fn superelement() -> Vec<Key> {
             "",
             "[{ name = \"root\" }, { name = \"tip\", at = [1, 0, 0] }]: nodes for joints, in the order of the matrices",
         ),
-        optional(
+        unitless(
             "matrices",
             Shape::Text,
-            "",
             "NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, instead of these keys",
         ),
-        optional(
+        unitless(
             "mass",
             Shape::Text,
-            "",
             "Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode",
         ),
-        optional("stiffness", Shape::Text, "", "Matrix Market file over the same rows"),
-        optional("damping", Shape::Text, "", "Matrix Market file over the same rows"),
-        optional(
+        unitless("stiffness", Shape::Text, "Matrix Market file over the same rows"),
+        unitless("damping", Shape::Text, "Matrix Market file over the same rows"),
+        unitless(
             "modal_damping",
             Shape::NotNegative,
-            "",
             "instead of `damping`: damping ratio of every mode of the free part",
         ),
         optional(
@@ -86,33 +74,29 @@ pub(crate) fn superelement() -> Vec<Key> {
             "s",
             "instead of `damping`: factor of the stiffness",
         ),
-        optional(
+        unitless(
             "recovery",
             Shape::Text,
-            "",
             "file of a matrix for outputs of kind `recovered`: each row yields a stress or displacement from the unknowns",
         ),
-        optional(
+        unitless(
             "preload",
             Shape::Text,
-            "",
             "Matrix Market file of one column: forces on the undeformed part, which rotate with it",
         ),
-        optional(
+        unitless(
             "geometric",
             Shape::Text,
-            "",
             "Matrix Market file of `lissom reduce`: terms of second order in the deformation, such as geometric stiffness",
         ),
-        optional(
+        unitless(
             "floating",
             Shape::Text,
-            "",
             "interface to which the floating frame is attached; default: the first",
         ),
         optional("position", Shape::Place, "m", "position of the origin of the part"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
-        optional("axes", Shape::Axes, "", "instead of `rotation`: first and second axis"),
+        unitless("axes", Shape::Axes, "instead of `rotation`: first and second axis"),
     ]
 }
 
@@ -138,22 +122,19 @@ pub(crate) fn initial() -> Vec<Key> {
         optional("velocity", Shape::GlobalVector, "m/s", "velocity of the point `about`"),
         optional("angular_velocity", Shape::GlobalVector, "rad/s", "global axes"),
         optional("about", Shape::Place, "m", "a point of the rigid motion; default the origin"),
-        optional(
+        unitless(
             "equilibrium",
             Shape::Flag,
-            "",
             "start from static equilibrium under the loads at the start",
         ).or_flag(false),
-        optional(
+        unitless(
             "steady_rotation",
             Shape::Flag,
-            "",
             "start from the relative equilibrium in which the model rotates steadily with its velocities",
         ).or_flag(false),
-        optional(
+        unitless(
             "follow_drives",
             Shape::Flag,
-            "",
             "beams, shells, solids and superelements without given velocities start with those of their drive, otherwise at rest",
         )
         .or_flag(true),

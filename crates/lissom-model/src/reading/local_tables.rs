@@ -2,7 +2,7 @@
 
 use crate::files::polar_file::{Polar, polars};
 use crate::format::keys::table_keys;
-use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::keys::{Key, Shape, choice, required, unitless};
 use crate::functions::table::{Extrapolation, Table};
 use crate::functions::table_family::TableFamily;
 use crate::parts::context::Context;
@@ -18,10 +18,10 @@ pub(crate) fn local_table_keys() -> Vec<Key> {
     let mut keys = table_keys();
     keys.extend([
         required("of", Shape::Formula, "", "the expression over which the table is, or two in a list"),
-        optional("tables", Shape::Table, "", "tables for ascending values `at` of the second expression"),
-        optional("polar", Shape::Text, "", "a file of AeroDyn or HAWC2 with polars of an aerofoil"),
-        optional("coefficient", choice(&COEFFICIENTS), "", "coefficient of the polars: lift, drag or moment"),
-        optional("set", Shape::Count(1, 9999), "", "set of polars in a file of HAWC2").or_count(1),
+        unitless("tables", Shape::Table, "tables for ascending values `at` of the second expression"),
+        unitless("polar", Shape::Text, "a file of AeroDyn or HAWC2 with polars of an aerofoil"),
+        unitless("coefficient", choice(&COEFFICIENTS), "coefficient of the polars: lift, drag or moment"),
+        unitless("set", Shape::Count(1, 9999), "set of polars in a file of HAWC2").or_count(1),
     ]);
     keys
 }

@@ -7,7 +7,7 @@ use super::sampling::{Draw, SAMPLINGS, SamplingKind, WORDS};
 use super::statistic::{self, STATISTICS};
 use super::window::{self, Window};
 use super::{Collected, MAX_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
-use crate::format::keys::{Key, Shape, choice, optional, required};
+use crate::format::keys::{Key, Shape, choice, required, unitless};
 use crate::format::suggest;
 use crate::format::top_level::Variants;
 use crate::parts::Expanded;
@@ -53,20 +53,18 @@ impl SweepFile {
 fn keys() -> Vec<Key> {
     vec![
         required("lissom_sweep", Shape::Version, "", "version of the format of sweep files"),
-        optional("model", Shape::Text, "", "path of the model file, relative to this file"),
-        optional("sampling", choice(&WORDS), "", "how values are combined or drawn")
-            .or_word(SAMPLINGS[0].name),
-        optional(
+        unitless("model", Shape::Text, "path of the model file, relative to this file"),
+        unitless("sampling", choice(&WORDS), "how values are combined or drawn").or_word(SAMPLINGS[0].name),
+        unitless(
             "members",
             Shape::Count(1, MAX_MEMBERS),
-            "",
             "number of members, for random and quasi-random sampling",
         ),
-        optional("seed", Shape::Count(0, 1 << 53), "", "start of the random numbers").or_count(0),
-        optional("set", Shape::Table, "", "paths of the model and the value each has in all members"),
+        unitless("seed", Shape::Count(0, 1 << 53), "start of the random numbers").or_count(0),
+        unitless("set", Shape::Table, "paths of the model and the value each has in all members"),
         required("vary", Shape::Table, "", "paths of the model and the values of each"),
         required("collect", Shape::Table, "", "scalars to be collected by name, such as max(tip.u2)"),
-        optional("histories", Shape::Words, "", "columns whose histories are written, such as [\"tip.u2\"]"),
+        unitless("histories", Shape::Words, "columns whose histories are written, such as [\"tip.u2\"]"),
     ]
 }
 
@@ -211,8 +209,8 @@ fn variation(context: &Context<'_>, (path, span): (&str, Span), node: &Node) -> 
     let reader = open(vec![
         required("from", Shape::Number, "", "the first value"),
         required("to", Shape::Number, "", "the last value"),
-        optional("count", Shape::Count(2, MAX_MEMBERS), "", "number of values, for grids and lists"),
-        optional("spacing", choice(&["linear", "logarithmic"]), "", "between the values").or_word("linear"),
+        unitless("count", Shape::Count(2, MAX_MEMBERS), "number of values, for grids and lists"),
+        unitless("spacing", choice(&["linear", "logarithmic"]), "between the values").or_word("linear"),
     ])?;
     let (from, to) = (reader.number("from"), reader.number("to"));
     let count = reader.count("count").map(|count| count.value);

@@ -5,7 +5,7 @@ pub(crate) mod damage;
 pub(crate) mod damaged_expressions;
 
 use lissom_mechanics::ports::Ports;
-use lissom_mechanics::registry::{Parameter, ParameterType};
+use lissom_mechanics::registry::{Parameter, ParameterType, optional, required};
 use lissom_model::registry::{ChoiceEntry, KindEntry, Registry};
 
 const fn kind(
@@ -22,28 +22,27 @@ const fn choice(name: &'static str, parameters: &'static [Parameter]) -> ChoiceE
 }
 
 const ANGLE: &[Parameter] =
-    &[Parameter::optional("angle", ParameterType::Number, "rad", "initial angle").or_number(0.0)];
-const TURN: &[Parameter] =
-    &[Parameter::required("rotation", ParameterType::Function, "rad", "relative rotation")];
+    &[optional("angle", ParameterType::Number, "rad", "initial angle").or_number(0.0)];
+const TURN: &[Parameter] = &[required("rotation", ParameterType::Function, "rad", "relative rotation")];
 const POINT: &[Parameter] = &[
-    Parameter::required("stiffness", ParameterType::NotNegative, "N/m", "stiffness"),
-    Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "damping"),
-    Parameter::optional("length", ParameterType::NotNegative, "m", "length without force"),
+    required("stiffness", ParameterType::NotNegative, "N/m", "stiffness"),
+    optional("damping", ParameterType::NotNegative, "N s/m", "damping"),
+    optional("length", ParameterType::NotNegative, "m", "length without force"),
 ];
 const TORSIONAL: &[Parameter] = &[
-    Parameter::required("stiffness", ParameterType::NotNegative, "N m/rad", "stiffness"),
-    Parameter::optional("damping", ParameterType::NotNegative, "N m s/rad", "damping"),
-    Parameter::optional("angle", ParameterType::Number, "rad", "angle without moment"),
+    required("stiffness", ParameterType::NotNegative, "N m/rad", "stiffness"),
+    optional("damping", ParameterType::NotNegative, "N m s/rad", "damping"),
+    optional("angle", ParameterType::Number, "rad", "angle without moment"),
 ];
 const LOAD: &[Parameter] = &[
-    Parameter::required("vector", ParameterType::GlobalVector, "N or N m", "direction and size"),
-    Parameter::optional("scale", ParameterType::Function, "", "factor in time").or_number(1.0),
-    Parameter::optional("follower", ParameterType::Flag, "", "whether it turns with the node").or_flag(false),
+    required("vector", ParameterType::GlobalVector, "N or N m", "direction and size"),
+    optional("scale", ParameterType::Function, "", "factor in time").or_number(1.0),
+    optional("follower", ParameterType::Flag, "", "whether it turns with the node").or_flag(false),
 ];
 const ALPHA: &[Parameter] =
-    &[Parameter::optional("alpha", ParameterType::Between(-1.0 / 3.0, 0.0), "", "damping").or_number(-0.3)];
+    &[optional("alpha", ParameterType::Between(-1.0 / 3.0, 0.0), "", "damping").or_number(-0.3)];
 const RADIUS: &[Parameter] =
-    &[Parameter::optional("spectral_radius", ParameterType::Between(0.0, 1.0), "", "damping").or_number(0.8)];
+    &[optional("spectral_radius", ParameterType::Between(0.0, 1.0), "", "damping").or_number(0.8)];
 
 /// Kinds as the model files of the tests use them.
 pub(crate) fn registry() -> Registry {

@@ -14,7 +14,7 @@
 
 use super::collocation::collocation;
 use super::scheme::{ContactSolution, Scheme, SchemeError, SchemeKind, Tableau, within};
-use lissom_mechanics::registry::{Parameter, ParameterType};
+use lissom_mechanics::registry::{ParameterType, unitless};
 
 /// The energy is bounded for the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step
 /// of 0.1 ms.
@@ -26,10 +26,9 @@ pub const KIND: SchemeKind = SchemeKind {
     summary: "Energy decaying: third order, energy never increases, damping set by the spectral radius.",
     tolerance: Some(TOLERANCE),
     contacts: ContactSolution::Elements,
-    parameters: &[Parameter::optional(
+    parameters: &[unitless(
         "spectral_radius",
         ParameterType::Between(0.0, 1.0),
-        "",
         "Spectral radius at infinite frequency: 1 preserves energy, 0 annihilates.",
     )
     .or_number(0.0)],

@@ -14,7 +14,7 @@ use super::scheme::{
     Combination, ContactSolution, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeError, SchemeKind,
     Stage, Weights, within,
 };
-use lissom_mechanics::registry::{Parameter, ParameterType};
+use lissom_mechanics::registry::{ParameterType, unitless};
 
 /// Range of α in which HHT-α is unconditionally stable and of second order.
 const ALPHAS: (f64, f64) = (-1.0 / 3.0, 0.0);
@@ -25,10 +25,9 @@ pub const KIND: SchemeKind = SchemeKind {
     summary: "Generalized-α: second order, numerical damping set by the spectral radius.",
     tolerance: None,
     contacts: ContactSolution::Elements,
-    parameters: &[Parameter::optional(
+    parameters: &[unitless(
         "spectral_radius",
         ParameterType::Between(0.0, 1.0),
-        "",
         "Spectral radius at infinite frequency.",
     )
     .or_number(0.8)],
@@ -41,13 +40,9 @@ pub const HHT_KIND: SchemeKind = SchemeKind {
     summary: "HHT-α: second order, numerical damping set by α in -1/3 … 0.",
     tolerance: None,
     contacts: ContactSolution::Elements,
-    parameters: &[Parameter::optional(
-        "alpha",
-        ParameterType::Between(ALPHAS.0, ALPHAS.1),
-        "",
-        "Numerical damping.",
-    )
-    .or_number(-0.1)],
+    parameters: &[
+        unitless("alpha", ParameterType::Between(ALPHAS.0, ALPHAS.1), "Numerical damping.").or_number(-0.1)
+    ],
     build: hht,
 };
 

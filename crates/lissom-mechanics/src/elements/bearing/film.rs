@@ -29,7 +29,8 @@ use crate::elements::contribution::Contribution;
 use crate::elements::initial_model::InitialModel;
 use crate::elements::kind::{Attached, ElementKind};
 use crate::ports::Ports;
-use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::ParameterType::Positive;
+use crate::registry::{ModelAxis, ParameterError, ParameterType, Parameters, required, unitless};
 
 /// Names of the films.
 const FILMS: [&str; 2] = ["ruptured", "full"];
@@ -40,24 +41,13 @@ pub(crate) const KIND: ElementKind = ElementKind {
     summary: "Short journal bearing with a fluid film, or squeeze-film damper of a shaft that does not rotate in it.",
     sample: "at_tip = [0.0, 0.0, 0.0]\nradius = 0.02\nlength = 0.01\nclearance = 5e-5\nviscosity = 0.02",
     parameters: &[
-        Parameter::required("radius", ParameterType::Positive, "m", "Radius of the journal."),
-        Parameter::required(
-            "length",
-            ParameterType::Positive,
-            "m",
-            "Length along the shaft, short against the diameter.",
-        ),
-        Parameter::required("clearance", ParameterType::Positive, "m", "Radial clearance."),
-        Parameter::required(
-            "viscosity",
-            ParameterType::Positive,
-            "Pa s",
-            "Dynamic viscosity of the lubricant.",
-        ),
-        Parameter::optional(
+        required("radius", Positive, "m", "Radius of the journal."),
+        required("length", Positive, "m", "Length along the shaft, short against the diameter."),
+        required("clearance", Positive, "m", "Radial clearance."),
+        required("viscosity", Positive, "Pa s", "Dynamic viscosity of the lubricant."),
+        unitless(
             "film",
             ParameterType::Choice(&FILMS),
-            "",
             "Film where the pressure is positive (\"ruptured\"), or everywhere (\"full\").",
         )
         .or_word(FILMS[0]),

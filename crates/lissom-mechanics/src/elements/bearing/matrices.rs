@@ -10,7 +10,7 @@ use crate::elements::contribution::Contribution;
 use crate::elements::initial_model::InitialModel;
 use crate::elements::kind::{Attached, ElementKind};
 use crate::ports::Ports;
-use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, optional};
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
@@ -18,14 +18,14 @@ pub(crate) const KIND: ElementKind = ElementKind {
     summary: "Bearing of a rotating shaft: stiffness and damping matrices, which may be unsymmetric and depend on the speed.",
     sample: "stiffness = [[1e6, 2e5], [-2e5, 1e6]]",
     parameters: &[
-        Parameter::optional(
+        optional(
             "stiffness",
             ParameterType::SquareMatrix,
             "N/m, N, N m/rad",
             "For displacements across the shaft (2 x 2), along it and across (3 x 3), across with rotations about both axes (4 x 4), or all \
             (5 x 5); a number is for both directions across.",
         ).or_number(0.0),
-        Parameter::optional(
+        optional(
             "damping",
             ParameterType::SquareMatrix,
             "N s/m, N s, N m s/rad",
@@ -51,7 +51,7 @@ pub(crate) const KIND: ElementKind = ElementKind {
 };
 
 const fn coefficient(name: &'static str, unit: &'static str, summary: &'static str) -> Parameter {
-    Parameter::optional(name, ParameterType::FunctionOf("speed"), unit, summary)
+    optional(name, ParameterType::FunctionOf("speed"), unit, summary)
 }
 
 /// Names of the coefficients over the speed.

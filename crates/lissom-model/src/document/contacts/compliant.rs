@@ -9,7 +9,7 @@ use lissom_motion::Vector3;
 use super::entry::{ContactLaw, Touching};
 use super::law;
 use super::parts::Parts;
-use crate::format::keys::{Key, Shape, optional};
+use crate::format::keys::{Key, Shape, optional, unitless};
 use crate::reading::reader::Reader;
 use crate::text::report::Located;
 
@@ -34,17 +34,15 @@ pub(super) fn keys() -> Vec<Key> {
         law::is_rigid(),
         optional("stiffness", Shape::Positive, "N/m^n", "normal force at a penetration of 1 m"),
         law::exponent(),
-        optional(
+        unitless(
             "material",
             Shape::Name("materials"),
-            "",
             "instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz",
         ),
-        optional("tip_material", Shape::Name("materials"), "", "material of the tip, if it is another one"),
-        optional(
+        unitless("tip_material", Shape::Name("materials"), "material of the tip, if it is another one"),
+        unitless(
             "restitution",
             Shape::Between(0.0, 1.0),
-            "",
             "velocity after an impact over that before, at any impact velocity: from 0.01 to 1, and 1 if it is omitted",
         ),
         optional(

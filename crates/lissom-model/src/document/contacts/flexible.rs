@@ -7,7 +7,7 @@ use super::super::NodeReference;
 use super::entry::{ContactLaw, Touching};
 use super::law;
 use super::parts::Parts;
-use crate::format::keys::{Key, Shape, optional, required};
+use crate::format::keys::{Key, Shape, optional, required, unitless};
 use crate::parts::context::Context;
 use crate::reading::mesh_nodes::ALL;
 use crate::reading::node_reference::MeshPlace;
@@ -123,7 +123,7 @@ pub(super) fn keys_along() -> Vec<Key> {
     let words = "of a beam: normal force per length at a penetration of 1 m";
     let mut keys = keys(required("stiffness_per_length", Shape::Positive, "N/m^(n+1)", words));
     let words = "of a beam: number of intervals between points of contact in an element";
-    keys.push(optional("points", Shape::Count(1, 64), "", words).or_count(2));
+    keys.push(unitless("points", Shape::Count(1, 64), words).or_count(2));
     keys.extend(radii());
     keys
 }
@@ -138,10 +138,9 @@ pub(super) fn keys_nearest() -> Vec<Key> {
 pub(super) fn keys_nodes() -> Vec<Key> {
     let words = "of a shell or a solid: normal force per area at a penetration of 1 m";
     let mut keys = keys(required("stiffness_per_area", Shape::Positive, "N/m^(n+2)", words));
-    keys.push(optional(
+    keys.push(unitless(
         "faces",
         Shape::Text,
-        "",
         "of a solid: set of nodes whose faces touch; default all outer faces",
     ));
     keys

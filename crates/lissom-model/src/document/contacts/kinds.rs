@@ -7,7 +7,7 @@ use super::flexible::FlexiblePart;
 use super::law::STIFFNESSES;
 use super::parts::Parts;
 use super::{compliant, flexible, rigid};
-use crate::format::keys::{Key, Shape, optional, required};
+use crate::format::keys::{Key, Shape, required, unitless};
 use crate::format::suggest;
 use crate::format::top_level::{Variant, Variants};
 use crate::parts::context::Context;
@@ -81,7 +81,7 @@ impl ContactKind {
     pub(super) fn keys(&self) -> Vec<Key> {
         let words = KINDS.iter().map(|kind| kind.word).collect();
         let mut keys = vec![
-            optional("kind", Shape::Choice(Cow::Owned(words)), "", "its kind; default by its parts and keys"),
+            unitless("kind", Shape::Choice(Cow::Owned(words)), "its kind; default by its parts and keys"),
             required(
                 "base",
                 Shape::Node,

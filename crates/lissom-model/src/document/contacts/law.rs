@@ -4,7 +4,7 @@ use lissom_contact::elastic::ContactFriction;
 use lissom_contact::law::Coulomb;
 use lissom_mechanics::compliance::Compliance;
 
-use crate::format::keys::{Key, Shape, optional};
+use crate::format::keys::{Key, Shape, optional, unitless};
 use crate::reading::reader::Reader;
 
 /// Penetration at which the force of a contact is checked [m].
@@ -18,17 +18,16 @@ pub(super) const STIFFNESSES: [(&str, &str); 3] =
 
 /// The coefficient of friction.
 pub(super) fn coefficient() -> Key {
-    optional("friction", Shape::NotNegative, "", "coefficient of sliding friction").or_number(0.0)
+    unitless("friction", Shape::NotNegative, "coefficient of sliding friction").or_number(0.0)
 }
 
 /// Friction with bristles.
 pub(super) fn friction_keys() -> [Key; 4] {
     [
         coefficient(),
-        optional(
+        unitless(
             "static_friction",
             Shape::Positive,
-            "",
             "coefficient at rest, not below `friction`; default: that of `friction`",
         ),
         optional(
@@ -44,7 +43,7 @@ pub(super) fn friction_keys() -> [Key; 4] {
 
 /// The exponent of the penetration.
 pub(super) fn exponent() -> Key {
-    optional("exponent", Shape::Positive, "", "exponent n of the penetration, at least 1").or_number(1.0)
+    unitless("exponent", Shape::Positive, "exponent n of the penetration, at least 1").or_number(1.0)
 }
 
 /// What an impact dissipates.
@@ -55,13 +54,13 @@ pub(super) fn dissipation() -> Key {
 
 /// Two parts whose shapes touch.
 pub(super) fn other_parts() -> Key {
-    optional("others", Shape::Nodes, "", "further parts: every two of `base`, `tip` and these may touch")
+    unitless("others", Shape::Nodes, "further parts: every two of `base`, `tip` and these may touch")
 }
 
 /// The older word for the kind of rigid contacts.
 pub(super) fn is_rigid() -> Key {
     let words = "older word for the kinds `rigid` and `compliant`";
-    optional("rigid", Shape::Flag, "", words)
+    unitless("rigid", Shape::Flag, words)
 }
 
 /// Checks `rigid` against the kind.

@@ -5,14 +5,14 @@ use lissom_contact::rigid::RigidLaw;
 use super::entry::{ContactLaw, Touching};
 use super::law;
 use super::parts::Parts;
-use crate::format::keys::{Key, Shape, optional};
+use crate::format::keys::{Key, Shape, optional, unitless};
 use crate::reading::reader::Reader;
 
 pub(super) fn keys() -> Vec<Key> {
     vec![
         law::other_parts(),
         law::is_rigid(),
-        optional("restitution", Shape::Between(0.0, 1.0), "", "velocity after an impact over that before")
+        unitless("restitution", Shape::Between(0.0, 1.0), "velocity after an impact over that before")
             .or_number(0.0),
         optional("rest_velocity", Shape::Positive, "m/s", "slower impacts do not rebound").or_number(1e-3),
         law::coefficient(),
