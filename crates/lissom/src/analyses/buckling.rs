@@ -59,6 +59,7 @@ impl Analysis for BucklingRequest {
 /// Why load factors were not found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum BucklingRunError {
     /// The model is invalid.
     #[error(transparent)]
@@ -67,7 +68,6 @@ pub enum BucklingRunError {
     #[error(transparent)]
     Path(#[from] PathError),
     /// The loads are larger than a critical load.
-    #[error("{}", self.diagnostic())]
     AlreadyCritical(f64),
     /// There is no linear model.
     #[error(transparent)]
@@ -76,7 +76,6 @@ pub enum BucklingRunError {
     #[error(transparent)]
     Buckling(#[from] BucklingError),
     /// Some modes were not found.
-    #[error("{}", self.diagnostic())]
     Missing(usize),
 }
 

@@ -16,9 +16,9 @@ use lissom_model::output::Column;
 /// An unknown input or output.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum PortError {
     /// No input has this name.
-    #[error("{}", self.diagnostic())]
     Input {
         /// The given name.
         name: String,
@@ -26,7 +26,6 @@ pub enum PortError {
         known: String,
     },
     /// Several entries have this name.
-    #[error("{}", self.diagnostic())]
     Ambiguous {
         /// The given name.
         name: String,
@@ -34,7 +33,6 @@ pub enum PortError {
         meanings: String,
     },
     /// No output has this name.
-    #[error("{}", self.diagnostic())]
     Output {
         /// The given name.
         name: String,
@@ -42,10 +40,8 @@ pub enum PortError {
         known: String,
     },
     /// An accumulated number.
-    #[error("{}", self.diagnostic())]
     NotLinear(String),
     /// An input without effect.
-    #[error("{}", self.diagnostic())]
     WithoutEffect(String),
     /// The model could not be built with the load as an input.
     #[error(transparent)]

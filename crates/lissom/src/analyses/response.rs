@@ -104,6 +104,7 @@ impl Analysis for ResponseRequest {
 /// Why no response was found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum FrequencyError {
     /// The model is invalid.
     #[error(transparent)]
@@ -115,7 +116,6 @@ pub enum FrequencyError {
     #[error(transparent)]
     Port(#[from] PortError),
     /// The frequencies are not a range.
-    #[error("{}", self.diagnostic())]
     Range {
         /// First frequency [Hz].
         from: f64,
@@ -123,10 +123,8 @@ pub enum FrequencyError {
         to: f64,
     },
     /// Wheels are rolling.
-    #[error("{}", self.diagnostic())]
     RollsOn,
     /// A solve failed.
-    #[error("{}", self.diagnostic())]
     Response {
         /// The frequency [Hz].
         frequency: f64,

@@ -27,9 +27,9 @@ pub struct Prepared {
 /// Why no session can start from a state.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum StartError {
     /// It does not match the model.
-    #[error("{}", self.diagnostic())]
     OtherModel {
         /// The quantity with a different number.
         what: &'static str,
@@ -39,10 +39,8 @@ pub enum StartError {
         wanted: usize,
     },
     /// A number is not finite.
-    #[error("{}", self.diagnostic())]
     NotFinite,
     /// Positions do not satisfy the constraints.
-    #[error("{}", self.diagnostic())]
     Violated {
         /// Name of the joint.
         joint: String,

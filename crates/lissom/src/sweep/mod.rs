@@ -72,15 +72,14 @@ const TOGETHER: Duration = Duration::from_millis(10);
 /// Why a sweep cannot start.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum SweepError {
     /// The model is invalid, or becomes invalid by the values of the sweep.
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis has no time history.
-    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
     /// The model has no such column.
-    #[error("{}", self.diagnostic())]
     Column {
         /// Name of the collected item.
         name: String,
@@ -90,7 +89,6 @@ pub enum SweepError {
         known: String,
     },
     /// The cycles of a column are not counted.
-    #[error("{}", self.diagnostic())]
     NoExponent {
         /// Name of the collected item.
         name: String,
@@ -98,7 +96,6 @@ pub enum SweepError {
         column: String,
     },
     /// The window of a collected item cannot be used.
-    #[error("{}", self.diagnostic())]
     Window {
         /// Name of the collected item.
         name: String,
@@ -110,7 +107,6 @@ pub enum SweepError {
         remedy: String,
     },
     /// The model has no such event.
-    #[error("{}", self.diagnostic())]
     Event {
         /// Name of the collected item.
         name: String,

@@ -96,12 +96,12 @@ impl FromStr for Variation {
 /// Why no diagram was found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum CampbellError {
     /// The model is invalid.
     #[error(transparent)]
     Model(Report),
     /// The values are not a range.
-    #[error("{}", self.diagnostic())]
     Range {
         /// The path.
         path: String,
@@ -111,7 +111,6 @@ pub enum CampbellError {
         to: f64,
     },
     /// There are no modes at a value.
-    #[error("{}", self.diagnostic())]
     Modes {
         /// The path.
         path: String,
@@ -121,7 +120,6 @@ pub enum CampbellError {
         error: Box<ModesError>,
     },
     /// The unknowns depend on the value.
-    #[error("{}", self.diagnostic())]
     Unlike(String),
 }
 

@@ -113,6 +113,7 @@ impl std::str::FromStr for Target {
 /// Why derivatives were not found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum GradientError {
     /// The model is invalid, or becomes invalid if a number is changed slightly.
     #[error(transparent)]
@@ -127,7 +128,6 @@ pub enum GradientError {
     #[error(transparent)]
     Target(CommandError),
     /// The model has no such column.
-    #[error("{}", self.diagnostic())]
     Column {
         /// The given name.
         name: String,
@@ -135,10 +135,8 @@ pub enum GradientError {
         known: String,
     },
     /// There is no such number.
-    #[error("{}", self.diagnostic())]
     Number(String),
     /// The time is outside the analysis.
-    #[error("{}", self.diagnostic())]
     Time {
         /// The time [s].
         time: f64,
@@ -148,13 +146,10 @@ pub enum GradientError {
         end: f64,
     },
     /// The analysis has no steps.
-    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
     /// A neighbouring model has different unknowns.
-    #[error("{}", self.diagnostic())]
     Unlike(String),
     /// A function of time has its kinks at different times in a neighbouring model.
-    #[error("{}", self.diagnostic())]
     KinkMoves {
         /// Path of the number.
         path: String,
@@ -162,19 +157,15 @@ pub enum GradientError {
         time: f64,
     },
     /// Loads depend on the motion, or signals are sampled.
-    #[error("{}", self.diagnostic())]
     Feedback,
     /// A step was subdivided.
-    #[error("{}", self.diagnostic())]
     InParts(f64),
     /// Differences of runs depend on their distance.
-    #[error("{}", self.diagnostic())]
     NotSmooth {
         /// Path of the number.
         path: String,
     },
     /// Runs of neighbouring models contradict the derivatives.
-    #[error("{}", self.diagnostic())]
     Denied {
         /// Change predicted by the derivatives, in the unit of the output.
         expected: f64,

@@ -87,12 +87,12 @@ impl Analysis for ModeRequest {
 /// Why modes were not found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum ModesError {
     /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
     /// The time is outside the analysis.
-    #[error("{}", self.diagnostic())]
     Time {
         /// The time [s].
         time: f64,
@@ -100,7 +100,6 @@ pub enum ModesError {
         reason: String,
     },
     /// An invalid frequency.
-    #[error("{}", self.diagnostic())]
     Shift(f64),
     /// The analysis that computes the state has no consistent initial values.
     #[error(transparent)]
@@ -109,7 +108,6 @@ pub enum ModesError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// The state is not in equilibrium.
-    #[error("{}", self.diagnostic())]
     NotInEquilibrium {
         /// The state, in words.
         state: &'static str,
@@ -122,13 +120,10 @@ pub enum ModesError {
     #[error(transparent)]
     Steady(#[from] SteadyError),
     /// The rotation is not steady.
-    #[error("{}", self.diagnostic())]
     Unsteady(f64),
     /// The rotation is steady only at the azimuth of the start.
-    #[error("{}", self.diagnostic())]
     SteadyHereAlone(f64),
     /// Coefficients change as the model rotates.
-    #[error("{}", self.diagnostic())]
     Periodic {
         /// Number of the mode, from 1.
         number: usize,
@@ -146,7 +141,6 @@ pub enum ModesError {
     #[error(transparent)]
     Mode(#[from] ModeError),
     /// Some modes were not found.
-    #[error("{}", self.diagnostic())]
     Missing(usize),
 }
 

@@ -42,18 +42,17 @@ const UNRESISTED: f64 = 1e-3;
 /// Why a path has no start.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum PathSessionError {
     /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis is of another kind.
-    #[error("{}", self.diagnostic())]
     NotAPath(&'static str),
     /// There is no equilibrium to start from, or no load.
     #[error(transparent)]
     Start(#[from] PathError),
     /// The loads are larger than a critical load before the number is varied.
-    #[error("{}", self.diagnostic())]
     AlreadyCritical {
         /// Path to the number.
         path: String,
@@ -61,7 +60,6 @@ pub enum PathSessionError {
         load_factor: f64,
     },
     /// The loads were not reached before the number is varied.
-    #[error("{}", self.diagnostic())]
     NotLoaded {
         /// Path to the number.
         path: String,

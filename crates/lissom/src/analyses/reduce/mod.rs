@@ -118,21 +118,19 @@ pub struct ReduceReport {
 /// Why a reduction failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum ReduceError {
     /// There is no state, or the model is invalid.
     #[error(transparent)]
     State(#[from] ModesError),
     /// The request is invalid for the model.
-    #[error("{}", self.diagnostic())]
     Question(String),
     /// The reduction cannot be computed.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
     /// The matrices are not those of a free part.
-    #[error("{}", self.diagnostic())]
     Matrices(#[from] ParameterError),
     /// The archive could not be packed.
-    #[error("{}", self.diagnostic())]
     Archive(#[from] std::io::Error),
 }
 

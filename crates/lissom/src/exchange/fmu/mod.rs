@@ -23,18 +23,16 @@ pub const MODEL_FILE: &str = "model.json";
 /// Why a model cannot become a unit.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[error("{}", self.diagnostic())]
 pub enum FmuError {
     /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis has no time history.
-    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
     /// Two variables would have the same name.
-    #[error("{}", self.diagnostic())]
     SameName(String),
     /// The archive cannot be made.
-    #[error("{}", self.diagnostic())]
     Archive(#[from] std::io::Error),
 }
 
