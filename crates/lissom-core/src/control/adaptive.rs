@@ -12,7 +12,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::interface::{Control, Review};
-use crate::bytes::{from_bytes, to_bytes};
+use crate::bytes::{read_bytes, to_bytes};
 use crate::instants::TIME_TOLERANCE;
 use crate::integrator::Attempt;
 use crate::integrator::error_estimate::{
@@ -246,10 +246,9 @@ impl Control for Adaptive {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.controller, self.farthest, self.defect, self.by_defect);
-        let is_read = from_bytes(saved, &mut learned);
-        (self.controller, self.farthest, self.defect, self.by_defect) = learned;
-        is_read
+        read_bytes(saved)
+            .map(|learned| (self.controller, self.farthest, self.defect, self.by_defect) = learned)
+            .is_some()
     }
 }
 

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::interface::Control;
-use crate::bytes::{from_bytes, to_bytes};
+use crate::bytes::{read_bytes, to_bytes};
 use crate::integrator::Attempt;
 use crate::solver_features::{DisabledFeatures, SolverFeature};
 use crate::tuning::{MAX_HALVINGS, Tuning};
@@ -84,10 +84,7 @@ impl Control for Planned {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.size, self.bisection);
-        let is_read = from_bytes(saved, &mut learned);
-        (self.size, self.bisection) = learned;
-        is_read
+        read_bytes(saved).map(|learned| (self.size, self.bisection) = learned).is_some()
     }
 }
 

@@ -6,7 +6,7 @@ pub(crate) mod step_error;
 mod warning;
 
 pub use initial_error::InitialError;
-pub(crate) use reports::{report, warn};
+pub(crate) use reports::{report, report_since, warn};
 pub use step_error::StepError;
 pub use warning::Warning;
 

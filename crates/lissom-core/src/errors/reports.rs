@@ -9,6 +9,25 @@ pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
     }
 }
 
+/// Reports a warning with the time of its first report, and withdraws it if it is not noteworthy.
+macro_rules! report_since {
+    ($warnings:expr, $now:expr, $is_noteworthy:expr, $kind:ident { $($values:tt)* }) => {
+        $crate::errors::report(
+            $warnings,
+            |warning| matches!(warning, Warning::$kind { .. }),
+            |known| {
+                let time = match known {
+                    Some(Warning::$kind { time, .. }) => *time,
+                    _ => $now,
+                };
+                $is_noteworthy.then(|| Warning::$kind { time, $($values)* })
+            },
+        )
+    };
+}
+
+pub(crate) use report_since;
+
 /// Adds, updates or withdraws the warning whose kind `is_known` recognises. `reported` returns the new warning, given the known
 /// one, or none if there is no longer a cause.
 pub(crate) fn report(

@@ -2,8 +2,8 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
-use crate::bytes::{from_bytes, to_bytes};
-use crate::errors::{Warning, report};
+use crate::bytes::{read_bytes, to_bytes};
+use crate::errors::{Warning, report_since};
 
 /// Strains of the line above this are reported [-].
 const NOTEWORTHY: f64 = 0.1;
@@ -30,17 +30,7 @@ impl Monitor for BeamStrains {
             let strain = elements.iter().map(|element| element.largest_strain(at)).fold(0.0, f64::max);
             if strain > self.largest.max(NOTEWORTHY) {
                 self.largest = strain;
-                report(
-                    warnings,
-                    |warning| matches!(warning, Warning::LargeStrain { .. }),
-                    |known| {
-                        let time = match known {
-                            Some(Warning::LargeStrain { time, .. }) => *time,
-                            _ => at.time,
-                        };
-                        Some(Warning::LargeStrain { time, beam: beam.clone(), strain })
-                    },
-                );
+                report_since!(warnings, at.time, true, LargeStrain { beam: beam.clone(), strain });
             }
         }
     }
@@ -50,9 +40,6 @@ impl Monitor for BeamStrains {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.steps, self.largest);
-        let is_read = from_bytes(saved, &mut learned);
-        (self.steps, self.largest) = learned;
-        is_read
+        read_bytes(saved).map(|learned| (self.steps, self.largest) = learned).is_some()
     }
 }

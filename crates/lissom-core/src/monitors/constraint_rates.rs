@@ -10,8 +10,8 @@ use lissom_motion::Motion;
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::pairs::Pairs;
-use crate::bytes::{from_bytes, to_bytes};
-use crate::errors::{Warning, report};
+use crate::bytes::{read_bytes, to_bytes};
+use crate::errors::{Warning, report_since};
 use crate::kinematics::{Kinematics, Quantity};
 use crate::round_off::VIOLATION;
 use crate::system::System;
@@ -53,18 +53,9 @@ impl Monitor for ConstraintRates {
         let found = self.missed(step.problem.system, to, length, to.time - from.time);
         self.sums.iter_mut().zip(found).for_each(|(sum, found)| *sum += found);
         let missed = self.sums[0] / self.sums[1];
-        report(
-            warnings,
-            |warning| matches!(warning, Warning::UnresolvedRates { .. }),
-            // A disturbance at the start may be small compared with what follows.
-            |known| {
-                let time = match known {
-                    Some(Warning::UnresolvedRates { time, .. }) => *time,
-                    _ => to.time,
-                };
-                (missed > NOTEWORTHY).then_some(Warning::UnresolvedRates { time, missed })
-            },
-        );
+        // A disturbance at the start may be small compared with what follows.
+        let is_noteworthy = missed > NOTEWORTHY;
+        report_since!(warnings, to.time, is_noteworthy, UnresolvedRates { missed });
     }
 
     fn save(&self) -> Vec<u8> {
@@ -72,10 +63,7 @@ impl Monitor for ConstraintRates {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.pairs, self.sums);
-        let is_read = from_bytes(saved, &mut learned);
-        (self.pairs, self.sums) = learned;
-        is_read
+        read_bytes(saved).map(|learned| (self.pairs, self.sums) = learned).is_some()
     }
 }
 

@@ -15,7 +15,7 @@ use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::elements::Spring;
-use crate::errors::{Warning, report};
+use crate::errors::{Warning, report_since};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::kinematics::Kinematics;
 use crate::linearized::LinearModel;
@@ -116,17 +116,8 @@ impl Monitor for EnergyDrift {
         if shift < monitor::NOTEWORTHY {
             return;
         }
-        report(
-            warnings,
-            |warning| matches!(warning, Warning::EnergyDrift { .. }),
-            |known| {
-                let time = match known {
-                    Some(Warning::EnergyDrift { time, .. }) => *time,
-                    _ => end.time,
-                };
-                Some(Warning::EnergyDrift { time, shift, lost: after.lost / after.turned_over })
-            },
-        );
+        let lost = after.lost / after.turned_over;
+        report_since!(warnings, end.time, true, EnergyDrift { shift, lost });
     }
 
     fn save(&self) -> Vec<u8> {

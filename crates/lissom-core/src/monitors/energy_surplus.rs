@@ -1,7 +1,7 @@
 //! A motion with more energy than loads and drives have supplied.
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::errors::{Warning, report};
+use crate::errors::{Warning, report_since};
 
 /// Has no state: the energy balance is part of the simulation's state.
 struct EnergySurplus;
@@ -14,22 +14,14 @@ impl Monitor for EnergySurplus {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let [_, after] = step.energy_balance;
         let (surplus, turned_over) = (after.surplus, after.turned_over);
-        let now = step.end.kinematics.time;
-        report(
+        let (now, remedy) =
+            (step.end.kinematics.time, || step.problem.settings.resolution_remedy().to_owned());
+        // A surplus at the start may be small compared with what follows.
+        report_since!(
             warnings,
-            |warning| matches!(warning, Warning::EnergySurplus { .. }),
-            // A surplus at the start may be small compared with what follows.
-            |known| {
-                let since = match known {
-                    Some(Warning::EnergySurplus { time, .. }) => *time,
-                    _ => now,
-                };
-                let is_noteworthy = after.is_noteworthy();
-                is_noteworthy.then(|| {
-                    let remedy = step.problem.settings.resolution_remedy().to_owned();
-                    Warning::EnergySurplus { time: since, surplus, turned_over, remedy }
-                })
-            },
+            now,
+            after.is_noteworthy(),
+            EnergySurplus { surplus, turned_over, remedy: remedy() }
         );
     }
 }

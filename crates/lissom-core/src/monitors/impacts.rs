@@ -10,7 +10,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::bytes::{from_bytes, to_bytes};
+use crate::bytes::{read_bytes, to_bytes};
 use crate::errors::{Warning, report};
 use crate::kinematics::{Kinematics, Switch};
 use crate::system::System;
@@ -114,12 +114,10 @@ impl Monitor for Impacts {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.time, Vec::new());
-        let is_read = from_bytes(saved, &mut learned) && learned.1.len() == self.approaches.len();
-        if is_read {
-            (self.time, self.approaches) = learned;
-        }
-        is_read
+        let count = self.approaches.len();
+        let learned: Option<(_, Vec<_>)> =
+            read_bytes(saved).filter(|(_, own): &(_, Vec<_>)| own.len() == count);
+        learned.map(|learned| (self.time, self.approaches) = learned).is_some()
     }
 }
 

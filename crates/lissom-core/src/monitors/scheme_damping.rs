@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::elements::inertia::Inertia;
-use crate::errors::{Warning, report};
+use crate::errors::{Warning, report_since};
 use crate::kinematics::{GROUND, Kinematics, Subject, split};
 
 /// Loss over the energy exchanged above which it is reported.
@@ -81,24 +81,11 @@ impl Monitor for SchemeDamping {
         }
         let exchanged = step.energy_balance[1].turned_over;
         let share = if exchanged > 0.0 { self.lost / exchanged } else { 0.0 };
-        let is_known = |warning: &Warning| matches!(warning, Warning::SchemeDamps { .. });
         let most = self.by_inertia.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
         let part = most.map_or(GROUND, |(index, _)| system.inertias()[index].node());
-        report(warnings, is_known, |known| {
-            if share <= NOTEWORTHY {
-                return None;
-            }
-            let time = match known {
-                Some(Warning::SchemeDamps { time, .. }) => *time,
-                _ => ends[1].time,
-            };
-            Some(Warning::SchemeDamps {
-                time,
-                lost: self.lost,
-                share,
-                part: Subject::new("node", system.layout().name_of_node(part)),
-            })
-        });
+        let name = || Subject::new("node", system.layout().name_of_node(part));
+        let (lost, is_noteworthy) = (self.lost, share > NOTEWORTHY);
+        report_since!(warnings, ends[1].time, is_noteworthy, SchemeDamps { lost, share, part: name() });
     }
 
     fn save(&self) -> Vec<u8> {

@@ -3,8 +3,8 @@
 use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
-use crate::bytes::{from_bytes, to_bytes};
-use crate::errors::{Warning, report};
+use crate::bytes::{read_bytes, to_bytes};
+use crate::errors::{Warning, report_since};
 
 /// Largest sizes and errors so far.
 #[derive(Default)]
@@ -46,22 +46,13 @@ impl Monitor for SectionForces {
             }
         }
         let Some((error, index)) = worst else { return };
-        report(
+        let (is_noteworthy, own) = (error > monitor::NOTEWORTHY, &sections[index]);
+        let elements = own.element_count;
+        report_since!(
             warnings,
-            |warning| matches!(warning, Warning::SectionForces { .. }),
-            |known| {
-                let time = match known {
-                    Some(Warning::SectionForces { time, .. }) => *time,
-                    _ => at.time,
-                };
-                let (beam, elements) = (sections[index].beam.clone(), sections[index].element_count);
-                (error > monitor::NOTEWORTHY).then_some(Warning::SectionForces {
-                    time,
-                    beam,
-                    elements,
-                    error,
-                })
-            },
+            at.time,
+            is_noteworthy,
+            SectionForces { beam: own.beam.clone(), elements, error }
         );
     }
 
@@ -70,9 +61,6 @@ impl Monitor for SectionForces {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.steps, std::mem::take(&mut self.largest));
-        let is_read = from_bytes(saved, &mut learned);
-        (self.steps, self.largest) = learned;
-        is_read
+        read_bytes(saved).map(|learned| (self.steps, self.largest) = learned).is_some()
     }
 }

@@ -2,7 +2,7 @@
 //! that satisfy the constraints. They are counted by the signs of pivots [Sylvester's law of inertia].
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::bytes::{from_bytes, to_bytes};
+use crate::bytes::{read_bytes, to_bytes};
 use crate::consistent::mobility::mobility;
 use crate::errors::Warning;
 use crate::errors::warn;
@@ -74,11 +74,6 @@ impl Monitor for Stability {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (Vec::new(), None);
-        let is_read = from_bytes(saved, &mut learned);
-        if is_read {
-            (self.changes, self.stable_at) = learned;
-        }
-        is_read
+        read_bytes(saved).map(|learned| (self.changes, self.stable_at) = learned).is_some()
     }
 }

@@ -13,8 +13,8 @@
 use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
-use crate::bytes::{from_bytes, to_bytes};
-use crate::errors::{Warning, report};
+use crate::bytes::{read_bytes, to_bytes};
+use crate::errors::{Warning, report_since};
 use crate::flexible::beam::section_error::SectionError;
 use crate::kinematics::Kinematics;
 use crate::node_motion::displace;
@@ -103,19 +103,10 @@ impl Monitor for UnresolvedForces {
         });
         let worst = errors.max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((error, beam)) = worst else { return };
-        report(
-            warnings,
-            |warning| matches!(warning, Warning::UnresolvedForces { .. }),
-            // An error at the start may be small compared with what follows.
-            |known| {
-                let time = match known {
-                    Some(Warning::UnresolvedForces { time, .. }) => *time,
-                    _ => at.time,
-                };
-                let warning = Warning::UnresolvedForces { time, beam: beam.clone(), error: error.min(1.0) };
-                (error > monitor::NOTEWORTHY).then_some(warning)
-            },
-        );
+        // An error at the start may be small compared with what follows.
+        let is_noteworthy = error > monitor::NOTEWORTHY;
+        let error = error.min(1.0);
+        report_since!(warnings, at.time, is_noteworthy, UnresolvedForces { beam: beam.clone(), error });
     }
 
     fn save(&self) -> Vec<u8> {
@@ -123,10 +114,7 @@ impl Monitor for UnresolvedForces {
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let (largest, sums) = (std::mem::take(&mut self.largest), std::mem::take(&mut self.sums));
-        let mut learned = (self.steps, self.unexamined, largest, sums);
-        let is_read = from_bytes(saved, &mut learned);
-        (self.steps, self.unexamined, self.largest, self.sums) = learned;
-        is_read
+        let learned = read_bytes(saved);
+        learned.map(|own| (self.steps, self.unexamined, self.largest, self.sums) = own).is_some()
     }
 }
