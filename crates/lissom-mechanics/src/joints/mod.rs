@@ -25,6 +25,7 @@ pub mod frame_pair;
 pub mod gear;
 pub mod generalized_coordinates;
 pub mod generic;
+mod held;
 pub mod inline;
 pub mod kind;
 mod kinds;

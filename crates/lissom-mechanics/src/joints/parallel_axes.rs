@@ -4,7 +4,7 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
-use super::clamp::EQUATIONS;
+use super::held::EQUATIONS;
 use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};

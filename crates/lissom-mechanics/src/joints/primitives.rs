@@ -182,6 +182,18 @@ impl JointRotation<f64> {
         Matrix3::from(self.rotation).tr_mul(&relative.rotation)
     }
 
+    /// Gradient of a joint that locks a point and this rotation.
+    pub(crate) fn held_gradient(&self, relative: &Relative, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+        self.matches_gradient(relative, 3, out);
+    }
+
+    /// Its Hessian.
+    pub(crate) fn held_hessian(&self, relative: &Relative, mu: &Equations, out: &mut ConstraintHessian) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        self.matches_hessian(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
+    }
+
     fn axis(&self, coordinate: usize) -> Vector3 {
         self.axes[coordinate].into()
     }

@@ -2,16 +2,13 @@
 //! coordinate, which springs, drives and outputs can use.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Screw, Vector3};
+use lissom_motion::{Motion, Real, Rotation, Vector3};
 
-use super::clamp::EQUATIONS;
+use super::held::Held;
 use super::kind::{Build, JointKind};
-use super::primitives::{JointRotation, coincident, coincident_gradient, coincident_hessian, elementary};
-use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::primitives::{JointRotation, elementary};
+use super::relative_increment::Angle;
+use super::{Coordinate, MAX_COORDINATES};
 use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, RATE_AT_START};
 
@@ -32,61 +29,16 @@ pub struct Revolute {
     angle: f64,
 }
 
-impl Joint for Revolute {
+impl Held for Revolute {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
 
-    fn equations(&self) -> &'static [&'static str] {
-        &EQUATIONS
-    }
-
     fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
-        let rotation = lissom_motion::Rotation::from_matrix(&elementary(2, self.angle));
+        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
         ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        coincident(relative, 0, &mut out);
-        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
-        out
-    }
-
     #[inline(always)]
-    fn violation_change<R: Real>(
-        increment: &RelativeIncrement<R>,
-        own: &CoordinateIncrement<R>,
-        _: &[R; MAX_CONSTANTS],
-    ) -> [R; MAX_EQUATIONS] {
-        JointRotation::about_third_axis(&own.angles[0]).held_change(increment)
-    }
-
-    #[inline(always)]
-    fn wrench<R: Real>(
-        increment: &RelativeIncrement<R>,
-        own: &CoordinateIncrement<R>,
-        _: &[R; MAX_CONSTANTS],
-        mu: &[R; MAX_EQUATIONS],
-    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
-        JointRotation::about_third_axis(&own.angles[0]).held_wrench(increment, mu)
-    }
-
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        coincident_gradient(relative, 0, out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(
-            relative,
-            &Vector3::new(mu[3], mu[4], mu[5]),
-            out,
-        );
+    fn rotation<R: Real>(_: R, angle: impl Fn(usize) -> Angle<R>) -> JointRotation<R> {
+        JointRotation::about_third_axis(&angle(0))
     }
 }

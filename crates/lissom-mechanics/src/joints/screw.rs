@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 
 use lissom_motion::{Motion, Real, Rotation, Screw as Wrench, Vector3};
 
-use super::clamp::EQUATIONS;
+use super::held::EQUATIONS;
 use super::kind::{Build, JointKind};
-use super::primitives::{JointRotation, coincident_gradient, coincident_hessian, elementary, on_third_axis};
+use super::primitives::{JointRotation, elementary, on_third_axis};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
@@ -97,9 +97,8 @@ impl Joint for Screw {
     }
 
     fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        coincident_gradient(relative, 0, out);
         out.own[(2, 0)] = -self.pitch;
-        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
+        JointRotation::about_third_axis(&own.angle(0)).held_gradient(relative, out);
     }
 
     fn constraint_hessian(
@@ -109,11 +108,6 @@ impl Joint for Screw {
         mu: &Equations,
         out: &mut ConstraintHessian,
     ) {
-        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(
-            relative,
-            &Vector3::new(mu[3], mu[4], mu[5]),
-            out,
-        );
+        JointRotation::about_third_axis(&own.angle(0)).held_hessian(relative, mu, out);
     }
 }
