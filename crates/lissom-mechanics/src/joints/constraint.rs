@@ -95,8 +95,10 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     /// Position of its first multiplier among all.
     fn first_multiplier(&self) -> usize;
 
-    /// Number of equations.
-    fn equations(&self) -> usize;
+    /// Number of equations. Default: one.
+    fn equations(&self) -> usize {
+        1
+    }
 
     /// The quantity of an equation's violation.
     fn quantity(&self, equation: usize) -> Quantity;

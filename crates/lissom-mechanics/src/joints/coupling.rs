@@ -126,10 +126,6 @@ impl Constraint for Coupling {
         self.multiplier
     }
 
-    fn equations(&self) -> usize {
-        1
-    }
-
     fn quantity(&self, _equation: usize) -> Quantity {
         self.quantity
     }

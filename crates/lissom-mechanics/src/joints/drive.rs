@@ -28,10 +28,6 @@ impl Constraint for Drive {
         self.multiplier
     }
 
-    fn equations(&self) -> usize {
-        1
-    }
-
     fn quantity(&self, _equation: usize) -> Quantity {
         self.quantity
     }

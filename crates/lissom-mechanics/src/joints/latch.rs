@@ -49,10 +49,6 @@ impl Constraint for Latch {
         self.multiplier
     }
 
-    fn equations(&self) -> usize {
-        1
-    }
-
     fn quantity(&self, _equation: usize) -> Quantity {
         self.quantity
     }
