@@ -7,7 +7,7 @@ use lissom_mesh::MeshedPart;
 
 use crate::document::{AnalysisKind, Document, ElasticSolid};
 use crate::files;
-use crate::text::report::{Problem, Report};
+use crate::text::report::{Problem, Report, Span};
 
 /// Memory of a node of a beam with its elements, its tangent, its factors and the motion of the run [bytes]: lines of
 /// 10⁴ and 3·10⁴ elements need 53 kB (Radau IIA) to 79 kB (generalized-α) for each node at most.
@@ -60,58 +60,38 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     if memory <= available {
         return;
     }
-    if let Some(shell) = document.shells.iter().max_by_key(|shell| shell.mesh.positions.len())
-        && 2.0 * of_shells > memory
-    {
+    let mut report = |span: Span, what: String, help: &str| {
         let message = format!(
-            "the model requires about {} of memory, most of it for the {} elements of shell `{}`; available are {}",
+            "the model requires about {} of memory, most of it for {what}; available are {}",
             size(memory),
-            shell.mesh.elements.len(),
-            shell.name.value,
             size(available)
         );
-        let help = "use fewer elements, or a machine with more memory";
-        problems.push(Problem::error(shell.name.span, message).help(help));
-        return;
-    }
-    if let Some(solid) = document.elastic_solids.iter().max_by_key(|solid| solid.mesh.positions.len())
-        && 2.0 * of_solids > memory
-    {
-        let message = format!(
-            "the model requires about {} of memory, most of it for the {} elements of solid `{}`; available are {}",
-            size(memory),
-            solid.mesh.elements.len(),
-            solid.name.value,
-            size(available)
-        );
-        let help = "use fewer elements, or a machine with more memory";
-        problems.push(Problem::error(solid.name.span, message).help(help));
-        return;
+        problems.push(Problem::error(span, message).help(help));
+    };
+    let shells = document.shells.iter().map(|shell| (&shell.name, &shell.mesh));
+    let solids = document.elastic_solids.iter().map(|solid| (&solid.name, &solid.mesh));
+    let largest = [
+        ("shell", of_shells, shells.max_by_key(|(_, mesh)| mesh.positions.len())),
+        ("solid", of_solids, solids.max_by_key(|(_, mesh)| mesh.positions.len())),
+    ];
+    for (kind, own, largest) in largest {
+        if let Some((name, mesh)) = largest.filter(|_| 2.0 * own > memory) {
+            let what = format!("the {} elements of {kind} `{}`", mesh.elements.len(), name.value);
+            return report(name.span, what, "use fewer elements, or a machine with more memory");
+        }
     }
     let masses = document.point_masses.iter().map(|mass| mass.name.span);
     if let Some(first) = document.bodies.iter().map(|body| body.name.span).chain(masses).next()
         && (2.0 * of_bodies > memory || document.beams.is_empty())
     {
-        let message = format!(
-            "the model requires about {} of memory, most of it for its {} bodies and point masses with {} joints; available are {}",
-            size(memory),
-            document.bodies.len() + document.point_masses.len(),
-            document.joints.len(),
-            size(available)
-        );
-        problems.push(Problem::error(first, message).help("use fewer bodies, or a machine with more memory"));
-        return;
+        let count = document.bodies.len() + document.point_masses.len();
+        let what = format!("its {count} bodies and point masses with {} joints", document.joints.len());
+        return report(first, what, "use fewer bodies, or a machine with more memory");
     }
     let Some(largest) = document.beams.iter().max_by(|a, b| nodes(a).total_cmp(&nodes(b))) else { return };
-    let message = format!(
-        "the model requires about {} of memory, most of it for the {} elements of beam `{}`; available are {}",
-        size(memory),
-        largest.elements.value,
-        largest.name.value,
-        size(available)
-    );
+    let what = format!("the {} elements of beam `{}`", largest.elements.value, largest.name.value);
     let help = "use fewer elements, ten per beam are usual, or a machine with more memory";
-    problems.push(Problem::error(largest.elements.span, message).help(help));
+    report(largest.elements.span, what, help);
 }
 
 fn steps(document: &Document, problems: &mut Vec<Problem>) {
