@@ -28,7 +28,9 @@ pub(crate) trait Distance {
     /// Bounds, given those of the arguments.
     fn range(&self, arguments: &[Interval]) -> Interval;
     /// n of g = n·x - r, if it is such a function of three numbers.
-    fn slope(&self) -> Option<Vector3>;
+    fn slope(&self) -> Option<Vector3> {
+        None
+    }
 }
 
 impl Distance for &dyn Pair {

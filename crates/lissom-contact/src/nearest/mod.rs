@@ -398,8 +398,4 @@ impl Distance for ChordDistance {
         let gap = self.at(&middle);
         [gap - change, gap + change]
     }
-
-    fn slope(&self) -> Option<Vector3> {
-        None
-    }
 }

@@ -535,8 +535,4 @@ impl Distance for FlatDistance {
         let gap = self.at(&middle);
         [gap - change, gap + change]
     }
-
-    fn slope(&self) -> Option<Vector3> {
-        None
-    }
 }

@@ -3,7 +3,7 @@
 
 use std::io;
 
-use super::{Column, Record, Writer};
+use super::{Column, Record, Writer, check_count};
 
 /// Stretches of a curve: twice as many become half of them. A drawing shows fewer.
 const STRETCHES: usize = 4096;
@@ -143,15 +143,8 @@ impl Writer for CurveRecord {
     }
 
     fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
-        if values.len() == self.columns.len() {
-            self.push(time, values);
-            return Ok(());
-        }
-        let message = format!("{} values for {} columns", values.len(), self.columns.len());
-        Err(io::Error::new(io::ErrorKind::InvalidInput, message))
-    }
-
-    fn finish(&mut self) -> io::Result<()> {
+        check_count(values, &self.columns)?;
+        self.push(time, values);
         Ok(())
     }
 }

@@ -116,9 +116,20 @@ pub trait Writer {
     /// If it cannot be written.
     fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()>;
 
-    /// Ends: nothing is left in a buffer.
+    /// Ends: nothing is left in a buffer. Default: there is none.
     ///
     /// # Errors
     /// If it cannot be written.
-    fn finish(&mut self) -> io::Result<()>;
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Returns an error unless there is a value for each column.
+fn check_count(values: &[f64], columns: &[Column]) -> io::Result<()> {
+    if values.len() == columns.len() {
+        return Ok(());
+    }
+    let message = format!("{} values for {} columns", values.len(), columns.len());
+    Err(io::Error::new(io::ErrorKind::InvalidInput, message))
 }

@@ -3,7 +3,7 @@
 use lissom_mechanics::diagnostics::Diagnose;
 use std::io;
 
-use super::{Column, Writer};
+use super::{Column, Writer, check_count};
 
 /// Results in memory.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -101,15 +101,8 @@ impl Writer for Record {
     }
 
     fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
-        if values.len() == self.columns.len() {
-            self.push(time, values);
-            return Ok(());
-        }
-        let message = format!("{} values for {} columns", values.len(), self.columns.len());
-        Err(io::Error::new(io::ErrorKind::InvalidInput, message))
-    }
-
-    fn finish(&mut self) -> io::Result<()> {
+        check_count(values, &self.columns)?;
+        self.push(time, values);
         Ok(())
     }
 }

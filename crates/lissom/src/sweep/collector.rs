@@ -194,8 +194,4 @@ impl Writer for Collector<'_> {
         }
         Ok(())
     }
-
-    fn finish(&mut self) -> io::Result<()> {
-        Ok(())
-    }
 }
