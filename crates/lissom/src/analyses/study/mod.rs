@@ -12,6 +12,7 @@ mod scheme_words;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::errors::{InitialError, StepError};
 use lissom_model::Report;
+use lissom_model::output::quoted;
 
 use crate::run::report::RunError;
 
@@ -63,13 +64,6 @@ pub enum StudyError {
 
 /// One line of comma-separated texts; quoted if necessary.
 fn csv_line<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
-    let quoted = |text: &str| {
-        if text.contains([',', '"', '\n', '\r']) {
-            format!("\"{}\"", text.replace('"', "\"\""))
-        } else {
-            text.to_owned()
-        }
-    };
     let mut line = texts.into_iter().map(quoted).collect::<Vec<_>>().join(",");
     line.push('\n');
     line
