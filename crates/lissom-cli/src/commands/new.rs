@@ -17,38 +17,21 @@ struct Template {
     text: &'static str,
 }
 
+/// A template whose file has its name.
+macro_rules! template {
+    ($name:literal, $summary:literal) => {
+        Template { name: $name, summary: $summary, text: include_str!(concat!("templates/", $name, ".toml")) }
+    };
+}
+
 /// All of them, the usual one first.
 const TEMPLATES: [Template; 6] = [
-    Template {
-        name: "slider-crank",
-        summary: "a driven crank, a flexible rod and a slider",
-        text: include_str!("templates/slider-crank.toml"),
-    },
-    Template {
-        name: "vehicle",
-        summary: "a car with four sprung wheels that is driven and steered",
-        text: include_str!("templates/vehicle.toml"),
-    },
-    Template {
-        name: "robot",
-        summary: "an arm of three joints with motors and their control",
-        text: include_str!("templates/robot.toml"),
-    },
-    Template {
-        name: "crane",
-        summary: "a flexible tower crane with trolley, rope and winch",
-        text: include_str!("templates/crane.toml"),
-    },
-    Template {
-        name: "rotor",
-        summary: "a flexible shaft with an unbalanced disc, run up in bearings",
-        text: include_str!("templates/rotor.toml"),
-    },
-    Template {
-        name: "wing",
-        summary: "a flexible wing in a gust, with the aerodynamics of its sections",
-        text: include_str!("templates/wing.toml"),
-    },
+    template!("slider-crank", "a driven crank, a flexible rod and a slider"),
+    template!("vehicle", "a car with four sprung wheels that is driven and steered"),
+    template!("robot", "an arm of three joints with motors and their control"),
+    template!("crane", "a flexible tower crane with trolley, rope and winch"),
+    template!("rotor", "a flexible shaft with an unbalanced disc, run up in bearings"),
+    template!("wing", "a flexible wing in a gust, with the aerodynamics of its sections"),
 ];
 
 /// Schema of model files beside the model, which its first line names for editors.
