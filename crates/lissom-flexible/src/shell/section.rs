@@ -47,6 +47,12 @@ pub struct Ply {
     pub initial: [f64; 3],
 }
 
+/// From strains 11, 22, 2 12 to those along and across fibres at an angle [rad].
+fn to_fibres(angle: f64) -> Matrix3<f64> {
+    let (s, c) = angle.sin_cos();
+    Matrix3::new(c * c, s * s, c * s, s * s, c * c, -c * s, -2.0 * c * s, 2.0 * c * s, c * c - s * s)
+}
+
 impl Ply {
     /// A layer of an isotropic material.
     pub fn isotropic(thickness: f64, young: f64, poisson: f64, density: f64) -> Self {
@@ -78,21 +84,15 @@ impl Ply {
             0.0,
             self.shear[0],
         );
-        let to_fibres = self.to_fibres();
+        let to_fibres = to_fibres(self.angle);
         to_fibres.transpose() * own * to_fibres
-    }
-
-    /// From strains 11, 22, 2 12 in the local axes of the shell to those along and across the fibres.
-    fn to_fibres(&self) -> Matrix3<f64> {
-        let (s, c) = self.angle.sin_cos();
-        Matrix3::new(c * c, s * s, c * s, s * s, c * c, -c * s, -2.0 * c * s, 2.0 * c * s, c * c - s * s)
     }
 
     /// The layer where strains along and across the fibres are free [-], on top of its stresses without strain.
     #[must_use]
     pub fn expanded(mut self, [along, across]: [f64; 2]) -> Self {
         // The angle of the opposite sign turns back.
-        let free = Self { angle: -self.angle, ..self }.to_fibres() * Vector3::new(along, across, 0.0);
+        let free = to_fibres(-self.angle) * Vector3::new(along, across, 0.0);
         let stress = self.in_plane() * free;
         self.initial.iter_mut().zip(&stress).for_each(|(sum, value)| *sum -= value);
         self
