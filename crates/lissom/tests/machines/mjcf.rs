@@ -370,3 +370,19 @@ fn what_cannot_be_said_is_reported() {
     let refused = model_text(&robot, &Pose::default(), floating).unwrap_err().to_string();
     assert!(refused.contains("the world, which cannot move"), "{refused}");
 }
+
+/// Default classes give an armature to the free joint of a robot whose hinges are meant: it is reported as left out.
+#[test]
+fn the_armature_of_a_free_joint_is_left_out() {
+    let file = "<mujoco><default><joint armature='0.01'/></default><worldbody><body name='base' pos='0 0 1'>\
+        <joint name='float' type='free'/><geom type='box' size='0.1 0.1 0.1' mass='5'/><body name='leg' pos='0.1 0 0'>\
+        <joint name='hip' axis='0 1 0'/><geom type='capsule' size='0.02 0.1' mass='0.5'/></body></body></worldbody></mujoco>";
+    let robot = described(file);
+    assert!(
+        robot.left_out.iter().any(|words| words.contains("the armature 0.01 of `float`")),
+        "{:?}",
+        robot.left_out
+    );
+    let text = model(&robot, &[], &[]);
+    assert!(text.contains("[springs.hip_armature]") && !text.contains("[springs.float_armature]"), "{text}");
+}

@@ -451,3 +451,40 @@ fn mistakes_of_stops_and_friction_are_reported() {
     let reported = refused(&spherical.replace("axis = [0, 0, 1]\n", ""));
     assert!(reported.contains("no relative coordinate for friction"), "{reported}");
 }
+
+/// Joints of a falling mechanism that start at their stops, and neither press nor leave them, end no steps.
+#[test]
+fn joints_that_stay_at_their_stops_end_no_steps() {
+    use std::fmt::Write;
+    let mut text =
+        "lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.base]\nmass = 5\ninertia = [0.1, 0.1, 0.1]\n"
+            .to_owned();
+    for i in 0..10 {
+        let base = if i % 3 == 0 { "base".to_owned() } else { format!("b{}", i - 1) };
+        let (x, y, axis) = (
+            f64::from(i % 3) + 0.1 * f64::from(i / 3),
+            0.3 * f64::from(i / 3),
+            ["x", "y", "z"][i as usize % 3],
+        );
+        write!(
+            text,
+            "[bodies.b{i}]\nmass = {}\ninertia = [0.01, 0.012, 0.011]\nposition = [{}, {y}, {}]\n\
+             [joints.j{i}]\nkind = \"revolute\"\nbase = \"{base}\"\ntip = \"b{i}\"\nat = [{x}, {y}, 0]\naxis = \"{axis}\"\n\
+             [springs.s{i}]\nkind = \"torsional_stop\"\njoint = \"j{i}\"\nrange = [0, 1.5]\nstiffness = 1e3\ndissipation = 0.5\n",
+            1.0 + 0.3 * f64::from(i),
+            x + 0.5,
+            0.1 * f64::from(i)
+        )
+        .unwrap();
+    }
+    let totals = |text: &str| {
+        let mut session = session(text);
+        session.step_to(1.0).unwrap();
+        let totals = session.simulation().totals();
+        (totals.steps, totals.rejected_steps)
+    };
+    let analysis = "[analysis]\nkind = \"dynamics\"\nend = 1\nrelative_tolerance = 1e-3\n";
+    let (at_stops, far) =
+        (totals(&(text.clone() + analysis)), totals(&(text.replace("[0, 1.5]", "[-1, 1.5]") + analysis)));
+    assert_eq!(at_stops, far);
+}

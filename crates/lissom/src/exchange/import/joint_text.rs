@@ -13,8 +13,6 @@ pub(super) struct Placed {
     pub(super) own: String,
     /// The coordinate's initial value [rad, m].
     pub(super) value: f64,
-    /// Its initial rate [rad/s, m/s].
-    pub(super) rate: f64,
     /// A point of its axis and its direction at the start, in global axes.
     pub(super) at: Vector3,
     pub(super) axis: Vector3,
@@ -105,38 +103,21 @@ pub(super) fn write_resistance(text: &mut String, joint: &RobotJoint, place: &Pl
     }
 }
 
-/// The inertia of a rotor that acts on a coordinate only: ½ a q̇² is the energy of a body on the ground that is rotated by a gear
-/// of ratio one, or shifted with the coordinate perpendicular to gravity.
-pub(super) fn write_rotor(text: &mut String, joint: &RobotJoint, place: &Placed, gravity: &Vector3) {
-    if joint.armature <= 0.0 || !joint.moves() {
-        return;
-    }
-    let (own, armature) = (&place.own, joint.armature);
-    let (kind, axis, mass, inertia, moving) = if joint.freedom == Freedom::Rotation {
-        let spin = list(&(place.rate * place.axis));
-        ("revolute", place.axis, 1.0, armature, format!("angular_velocity = {spin}\n"))
-    } else {
-        let across = across(gravity);
-        let velocity = list(&(place.rate * across));
-        ("prismatic", across, armature, armature, format!("velocity = {velocity}\n"))
+/// The inertia of a rotor that acts on a coordinate only: ½ a q̇².
+pub(super) fn write_armature(text: &mut String, joint: &RobotJoint, place: &Placed) {
+    let word = match joint.freedom {
+        Freedom::Rotation => "angle",
+        Freedom::Displacement => "displacement",
+        Freedom::Fixed | Freedom::Ball | Freedom::Floating => return,
     };
-    let moving = if place.rate == 0.0 { "" } else { &moving };
-    let at = list(&place.at);
-    let _ = write!(
-        text,
-        "\n# The armature of {name}: a rotor on the ground that goes with the joint.\n\
-         [bodies.{own}_rotor]\nmass = {mass:?}\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}]\nposition = {at}\n{moving}\
-         \n[joints.{own}_rotor]\nkind = \"{kind}\"\nbase = \"ground\"\ntip = \"{own}_rotor\"\nat = {at}\naxis = {}\n\
-         \n[joints.{own}_armature]\nkind = \"gear\"\njoint = \"{own}\"\nother = \"{own}_rotor\"\nratio = 1.0\nrelative = true\n",
-        list(&axis),
-        name = joint.name.escape_debug(),
-    );
-}
-
-/// A direction perpendicular to `gravity`.
-fn across(gravity: &Vector3) -> Vector3 {
-    let away = if gravity.x.abs() > gravity.y.abs() { Vector3::y() } else { Vector3::x() };
-    gravity.cross(&away).try_normalize(0.0).unwrap_or_else(Vector3::x)
+    if joint.armature > 0.0 {
+        let own = &place.own;
+        let _ = write!(
+            text,
+            "\n[springs.{own}_armature]\nkind = \"coordinate_dynamics\"\ncoordinates = [\"{own}.{word}\"]\nmass = {:?}\n",
+            joint.armature
+        );
+    }
 }
 
 /// A coordinate that follows another.

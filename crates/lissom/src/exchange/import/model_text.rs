@@ -7,12 +7,14 @@
 //! J = Σ_i [R_i J_i R_iᵀ + m_i (d_i·d_i I - d_i d_iᵀ)],      d_i = C_i - C
 //! ```
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
 
-use super::joint_text::{Placed, write_closure, write_follower, write_joint, write_resistance, write_rotor};
+use super::joint_text::{
+    Placed, write_armature, write_closure, write_follower, write_joint, write_resistance,
+};
 use super::massless::{Massless, without_mass};
 use super::motors::{Motors, write_motors};
 use super::start::{Start, prefix};
@@ -134,13 +136,10 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
         .iter()
         .enumerate()
         .map(|(index, joint)| {
-            let (frame, of) = (&frames[joint.child], |all: &BTreeMap<String, f64>, default: f64| {
-                all.get(&joint.name).copied().unwrap_or(default)
-            });
+            let frame = &frames[joint.child];
             Placed {
                 own: names.joints[index].clone(),
-                value: of(&start.pose.values, joint.reference),
-                rate: of(&start.pose.rates, 0.0),
+                value: start.pose.values.get(&joint.name).copied().unwrap_or(joint.reference),
                 at: frame.transform_point(&joint.anchor),
                 axis: frame.rotation.apply(&joint.axis),
             }
@@ -159,7 +158,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     }
     for (joint, place) in robot.joints.iter().zip(&placed) {
         write_resistance(&mut text, joint, place, options);
-        write_rotor(&mut text, joint, place, &robot.gravity);
+        write_armature(&mut text, joint, place);
         if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic)
             && let Some(leader) = robot.joints.iter().position(|own| own.name == *leader)
         {

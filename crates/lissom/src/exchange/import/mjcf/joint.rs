@@ -74,10 +74,6 @@ pub(super) fn joint(
         joint.spring.rest = unit * element.number("springref", 0.0)?;
         joint.rating.effort = limits(element, ("actuatorfrcrange", "actuatorfrclimited"), autolimits)?
             .map(|[low, high]| low.abs().max(high.abs()));
-    } else if joint.armature > 0.0 {
-        return Err(
-            element.fault("the armature of a ball or free joint is not supported: add it to the inertia")
-        );
     }
     if joint.freedom == Freedom::Floating && joint.spring.stiffness > 0.0 {
         return Err(

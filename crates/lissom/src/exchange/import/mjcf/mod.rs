@@ -264,6 +264,13 @@ impl Reader {
             let read = joint::joint(element, compiled, (joint_name.clone(), carrier, child, origin));
             let fixed = || RobotJoint::new(joint_name, Freedom::Fixed, carrier, child, origin);
             let joint = self.robot.keep(read).unwrap_or_else(fixed);
+            if joint.armature > 0.0 && !joint.moves() {
+                // Default classes give it to the free joint of a robot whose hinges are meant.
+                let (name, armature) = (&joint.name, joint.armature);
+                self.robot
+                    .left_out
+                    .push(format!("the armature {armature} of `{name}`, which is no hinge or slide"));
+            }
             if joint.freedom == Freedom::Floating && (count > 1 || parent > 0) {
                 let fault =
                     element.fault("a body with a free joint can have no other joint and no parent body");
