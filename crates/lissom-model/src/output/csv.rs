@@ -67,12 +67,33 @@ pub fn quoted(text: &str) -> String {
 
 /// The shortest digits that give the number back, with an exponent where it saves zeros.
 fn write_number(to: &mut Vec<u8>, value: f64) -> io::Result<()> {
-    let size = value.abs();
-    if value == 0.0 || !value.is_finite() || (1e-4..1e9).contains(&size) {
-        write!(to, "{value}")
-    } else {
-        write!(to, "{value:e}")
+    if value == 0.0 || !value.is_finite() {
+        return write!(to, "{value}");
     }
+    let mut buffer = zmij::Buffer::new();
+    let text = buffer.format_finite(value);
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, ""));
+    let is_plain = (1e-4..1e9).contains(&value.abs());
+    if is_plain && exponent.is_empty() {
+        to.extend_from_slice(mantissa.strip_suffix(".0").unwrap_or(mantissa).as_bytes());
+        return Ok(());
+    }
+    if value < 0.0 {
+        to.push(b'-');
+    }
+    let unsigned = mantissa.strip_prefix('-').unwrap_or(mantissa).as_bytes();
+    let whole = unsigned.iter().position(|byte| *byte == b'.').unwrap_or(unsigned.len());
+    let zeros = unsigned.iter().filter(|byte| **byte != b'.').take_while(|byte| **byte == b'0').count();
+    let power = whole as i32 - 1 - zeros as i32 + exponent.parse::<i32>().unwrap_or(0);
+    let begin = to.len();
+    to.extend(unsigned.iter().filter(|byte| **byte != b'.').skip(zeros));
+    while to.len() > begin + 1 && to.last() == Some(&b'0') {
+        to.pop();
+    }
+    if to.len() > begin + 1 {
+        to.insert(begin + 1, b'.');
+    }
+    write!(to, "e{power}")
 }
 
 #[cfg(test)]
@@ -113,6 +134,17 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn numbers_are_written_as_by_the_standard_library(value in any::<f64>(), exponent in -12..12_i32) {
+            for value in [value, f64::exp2(f64::from(exponent)) * value.fract()] {
+                let is_plain = value == 0.0 || !value.is_finite() || (1e-4..1e9).contains(&value.abs());
+                let wanted = if is_plain { format!("{value}") } else { format!("{value:e}") };
+                let mut text = Vec::new();
+                write_number(&mut text, value).unwrap();
+                prop_assert_eq!(String::from_utf8(text).unwrap(), wanted);
+            }
+        }
+
         #[test]
         fn numbers_come_back_exactly(value in any::<f64>()) {
             let mut text = Vec::new();
