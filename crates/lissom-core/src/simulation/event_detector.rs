@@ -37,9 +37,6 @@ const INSTANTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 const GRID: usize = 32;
 /// Values smaller than this fraction of the largest so far have no sign.
 const NOISE: f64 = 1e-9;
-/// Magnitude that functions of forces have at least [m, rad, m/s, rad/s]: one that stays at zero, as the displacement of a joint that starts
-/// at its stop and neither presses nor leaves it, would otherwise have the signs of its round-off.
-const LEAST: f64 = 1e-3;
 /// Maximum number of repeated steps for one root: three are usual.
 const MAX_REFINEMENTS: usize = 30;
 /// A refinement after which more than this fraction of the function's value remains beyond the root is slow.
@@ -173,7 +170,9 @@ impl EventDetector {
         detector.known.sides = vec![0.0; detector.values.len()];
         detector.known.before = vec![0.0; detector.values.len()];
         detector.known.largest = vec![0.0; detector.values.len()];
-        detector.known.largest[first..].fill(LEAST);
+        // One that stays at zero, as the displacement of a joint that starts at its stop and neither presses nor leaves it, would otherwise
+        // have the signs of its round-off.
+        detector.known.largest[first..].fill(round_off::INCREMENT / NOISE);
         detector.known.remaining = vec![0.0; detector.values.len()];
         detector.known.recent.0 = start.kinematics.time;
         detector.note(0..0, &[]);
