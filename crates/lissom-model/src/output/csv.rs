@@ -84,7 +84,7 @@ fn write_number(to: &mut Vec<u8>, value: f64) -> io::Result<()> {
     let unsigned = mantissa.strip_prefix('-').unwrap_or(mantissa).as_bytes();
     let whole = unsigned.iter().position(|byte| *byte == b'.').unwrap_or(unsigned.len());
     let zeros = unsigned.iter().filter(|byte| **byte != b'.').take_while(|byte| **byte == b'0').count();
-    let power = whole as i32 - 1 - zeros as i32 + exponent.parse::<i32>().unwrap_or(0);
+    let power = whole.cast_signed() - 1 - zeros.cast_signed() + exponent.parse::<isize>().unwrap_or(0);
     let begin = to.len();
     to.extend(unsigned.iter().filter(|byte| **byte != b'.').skip(zeros));
     while to.len() > begin + 1 && to.last() == Some(&b'0') {
