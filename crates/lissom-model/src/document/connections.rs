@@ -321,19 +321,30 @@ pub(super) fn part_of(node: &NodeReference) -> &str {
 
 impl Document {
     /// Parts that nothing connects to the ground.
-    pub fn free_parts(&self) -> Vec<&Located<String>> {
+    fn free_parts(&self) -> Vec<&Located<String>> {
         let mut groups = groups(self);
         let ground = groups.root(GROUND);
         self.parts().into_iter().filter(|part| groups.root(&part.value) != ground).collect()
     }
 
-    /// A load on a part that nothing connects to the ground.
-    pub fn load_on_free_part(&self) -> Option<&str> {
+    /// A part that nothing connects to the ground, and what accelerates such parts, in words.
+    pub fn accelerated_part(&self) -> Option<(&str, String)> {
         let free: BTreeSet<&str> = self.free_parts().iter().map(|part| part.value.as_str()).collect();
-        let acts = |load: &&Component| {
-            load.attachment.nodes.iter().any(|own| free.contains(part_of(&own.node.value)))
-        };
-        self.loads.iter().find(acts).map(|load| load.name.value.as_str())
+        let load = self.loads.iter().find_map(|load| {
+            let mut parts = load.attachment.nodes.iter().map(|own| part_of(&own.node.value));
+            Some((*parts.find_map(|part| free.get(part))?, &load.name.value))
+        });
+        if let Some((part, load)) = load {
+            return Some((part, format!("`{load}`")));
+        }
+        if self.gravity.norm() > 0.0 {
+            return free.first().map(|part| (*part, "gravity".to_owned()));
+        }
+        let beams = self.beams.iter().filter(|own| !own.distributed.is_empty()).map(|own| &own.name);
+        let shells = self.shells.iter().filter(|own| !own.loads.is_empty()).map(|own| &own.name);
+        let solids = self.elastic_solids.iter().filter(|own| !own.pressures.is_empty()).map(|own| &own.name);
+        let mut spread = beams.chain(shells).chain(solids).filter(|name| free.contains(name.value.as_str()));
+        spread.next().map(|name| (name.value.as_str(), "its distributed loads".to_owned()))
     }
 
     fn parts(&self) -> Vec<&Located<String>> {

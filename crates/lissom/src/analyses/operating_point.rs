@@ -166,10 +166,8 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
         return Ok(());
     }
     drop(model);
-    if let Some(part) = document.free_parts().first() {
-        let load =
-            document.load_on_free_part().map_or_else(|| "gravity".to_owned(), |load| format!("`{load}`"));
-        let warning = AnalysisWarning::NoEquilibrium { part: part.value.clone(), load };
+    if let Some((part, load)) = document.accelerated_part() {
+        let warning = AnalysisWarning::NoEquilibrium { part: part.to_owned(), load };
         return undeformed(document, &mut |mut reached| {
             reached.warnings.push(warning.clone());
             hand(reached);

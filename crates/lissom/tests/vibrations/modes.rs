@@ -563,6 +563,17 @@ fn a_free_part_under_a_load_has_the_modes_of_the_unloaded_one() {
         panic!("{:?}", report.warnings)
     };
     assert_eq!((part.as_str(), load.as_str()), ("bar", "`turn`"));
+    let causes = [("force_per_length = [0, 0, 3]", "its distributed loads"), ("", "gravity")];
+    for (keys, wanted) in causes {
+        let text = beam(4, 3, keys);
+        let text = if keys.is_empty() {
+            text.replace("lissom = 1", "lissom = 1\ngravity = [0, 0, -9.81]")
+        } else {
+            text
+        };
+        let report = find(&text, OperatingPoint::Static, 8);
+        assert!(report.warnings.iter().any(|own| own.to_string().contains(wanted)), "{:?}", report.warnings);
+    }
     let unloaded = find(&beam(4, 3, ""), OperatingPoint::Static, 8);
     assert!(unloaded.warnings.is_empty());
     assert_eq!(frequencies(&report), frequencies(&unloaded));
