@@ -138,6 +138,17 @@ fn a_strip_of_two_metals_bends_as_timoshenko_says() {
     }
 }
 
+/// Joints of three points that hold a part without hindering it.
+fn held(corner: &str, along: &str, across: &str) -> String {
+    let joint = |name: &str, kind: &str, tip: &str, axis: &str| {
+        format!("[joints.{name}]\nkind = \"{kind}\"\nbase = \"ground\"\ntip = \"part@{tip}\"\n{axis}")
+    };
+    joint("corner", "spherical", corner, "")
+        + &joint("y", "point_in_plane", along, "axis = \"y\"\n")
+        + &joint("z", "point_in_plane", along, "axis = \"z\"\n").replace("joints.z", "joints.z1")
+        + &joint("z", "point_in_plane", across, "axis = \"z\"\n")
+}
+
 /// Elements of any shape expand without stress, and their pictures know it.
 #[test]
 fn distorted_shells_and_solids_expand_without_stress() {
@@ -150,16 +161,6 @@ fn distorted_shells_and_solids_expand_without_stress() {
             "{STEEL}[solids.part]\nvolume = [\"u + 0.1*u*v\", \"0.7*v + 0.1*u*w\", \"0.3*w + 0.1*u*u\"]\ndivisions = [3, 2, 1]\n\
              material = \"steel\"\nmodel = \"{model}\"\ntemperature = 50\n"
         )
-    };
-    // Three points hold the part without hindering it.
-    let held = |corner: &str, along: &str, across: &str| {
-        let joint = |name: &str, kind: &str, tip: &str, axis: &str| {
-            format!("[joints.{name}]\nkind = \"{kind}\"\nbase = \"ground\"\ntip = \"part@{tip}\"\n{axis}")
-        };
-        joint("corner", "spherical", corner, "")
-            + &joint("y", "point_in_plane", along, "axis = \"y\"\n")
-            + &joint("z", "point_in_plane", along, "axis = \"z\"\n").replace("joints.z", "joints.z1")
-            + &joint("z", "point_in_plane", across, "axis = \"z\"\n")
     };
     let parts = [
         (shell, held("0,0", "1,0", "0,1"), "shell_stress", "0.4,0.5", "mises_top"),
@@ -265,4 +266,23 @@ fn messages_name_the_remedy() {
     );
     let nowhere = refused(&(shell + &clamp("a", "strip@0.3,0") + STATICS));
     assert!(nowhere.contains("has no node at 0.3,0"), "{nowhere}");
+}
+
+/// A thin plate that is cold and free to shrink has no tension, and the frequencies of a warm one.
+#[test]
+fn cold_alone_changes_no_frequencies() {
+    let frequencies = |temperature: &str| {
+        let text = format!(
+            "{STEEL}[shells.part]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]\ndivisions = [6, 6]\nthickness = 1e-3\n\
+             material = \"steel\"\ntemperature = {temperature}\n"
+        ) + &held("0,0", "1,0", "0,1")
+            + "[analysis]\nkind = \"modes\"\n";
+        let request = ModeRequest { count: Some(6), ..ModeRequest::default() };
+        let found = modes(&Model::from_text("model.toml", &text), &request).expect("modes").modes;
+        found.iter().map(|mode| mode.frequency).collect::<Vec<_>>()
+    };
+    let (cold, warm) = (frequencies("-30"), frequencies("0"));
+    for (cold, warm) in cold.iter().zip(&warm) {
+        assert!((cold / warm - 1.0).abs() < 2e-3, "{cold} {warm}");
+    }
 }

@@ -82,6 +82,7 @@ fn model(
                 mass: 1e-3,
                 center: 0.0,
                 inertia: 1e-3,
+                tension: 0.0,
             },
         },
     );

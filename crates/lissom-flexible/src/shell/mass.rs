@@ -45,12 +45,10 @@ fn functions(r: f64, s: f64, share: f64) -> [f64; POINTS] {
     all
 }
 
-/// Share of the parabolas in an element, by the forces per length of its law without strain.
-pub(super) fn share_of_parabolas(reference: &Reference, law: &ShellLaw) -> f64 {
-    let force = |k: usize| -(0..6).map(|j| law.stiffness[(k, j)] * law.free[j]).sum::<f64>();
+/// Share of the parabolas in an element under a tension per length [N/m].
+pub(super) fn share_of_parabolas(reference: &Reference, law: &ShellLaw, tension: f64) -> f64 {
     let bending = 0.5 * (law.stiffness[(3, 3)] + law.stiffness[(4, 4)]);
-    // The mean of both directions, and four areas per r and s are that of the element.
-    let tension = 0.5 * (force(0) + force(1)).max(0.0);
+    // Four areas per r and s are that of the element.
     1.0 / (1.0 + tension * 4.0 * reference.axes(0.0, 0.0).area / (10.0 * bending))
 }
 

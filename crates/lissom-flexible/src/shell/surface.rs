@@ -27,6 +27,8 @@ pub struct ShellSection {
     pub center: f64,
     /// Moment of inertia per area of a line across the surface about its centre of mass [kg].
     pub inertia: f64,
+    /// Tension before any strain, the mean of both directions [N/m].
+    pub tension: f64,
 }
 
 impl ShellSection {
@@ -44,7 +46,13 @@ impl ShellSection {
         }
         let [mass, first, second] = moments;
         let center = if mass > 0.0 { first / mass } else { 0.0 };
-        Self { law: ShellLaw::laminate(plies, offset), mass, center, inertia: second - center * first }
+        Self {
+            law: ShellLaw::laminate(plies, offset),
+            mass,
+            center,
+            inertia: second - center * first,
+            tension: 0.0,
+        }
     }
 }
 
@@ -112,8 +120,10 @@ pub fn shell_surface(model: &InitialModel, surface: &SurfaceDescription<'_>) -> 
             let node = carriers[k];
             (node, frames[own[node]].rotation.apply_inverse(&carried[k]))
         });
-        let mut matrix =
-            mass::area_matrix(&references[index], mass::share_of_parabolas(&references[index], &section.law));
+        let mut matrix = mass::area_matrix(
+            &references[index],
+            mass::share_of_parabolas(&references[index], &section.law, section.tension),
+        );
         matrix.as_flattened_mut().iter_mut().for_each(|entry| *entry *= section.mass);
         let lumped = std::array::from_fn(|i| section.mass * shares[i]);
         let gravity = model.gravity.clone();

@@ -50,7 +50,10 @@ pub(super) fn add(
                 // Elements of a mesh have no common direction of their own.
                 direction: shell.direction.or(shell.mesh.places.is_none().then(Vector3::x)),
                 damping: shell.damping,
-                section: &|element| ShellSection::laminate(&shell.plies(element), shell.offset),
+                section: &|element| ShellSection {
+                    tension: 0.5 * (shell.prestress[0] + shell.prestress[1]).max(0.0),
+                    ..ShellSection::laminate(&shell.plies(element), shell.offset)
+                },
             },
         );
         builder.add(contribution);
