@@ -11,6 +11,7 @@ use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
 use crate::simulation::Simulation;
+use crate::simulation::recovery::jump::AccelerationJump;
 use crate::simulation::rigid_contacts::impact_of_latches;
 use crate::simulation::signal_history::{Break, SignalHistory};
 use crate::system::{State, System};
@@ -165,15 +166,29 @@ impl Simulation {
             let time = self.state.kinematics.time;
             return self.switch_constraints(&[], Some(at.held), [time; 2]);
         }
-        let Some(initial) = &mut self.held_values else {
+        if self.held_values.is_none() {
             self.state.kinematics = at;
             return Ok(());
-        };
+        }
+        if let Some(near) = &self.near {
+            let mut finder = self.jump.take().unwrap_or_else(|| Box::new(AccelerationJump::of(self)));
+            let jump = finder.find(&self.system, &self.state, (&at.held, near));
+            let is_found = jump.is_some();
+            if let Some(jump) = jump {
+                self.state.kinematics.held.copy_from_slice(&at.held);
+                self.add_jump(jump);
+            }
+            self.jump = Some(finder);
+            if is_found {
+                return Ok(());
+            }
+        }
+        let Some(initial) = &mut self.held_values else { return Ok(()) };
         // The matrix does not change.
         initial.factor(&self.system, &self.state, Inertias::All)?;
-        let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
+        let mut jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
         self.state.kinematics.held = at.held;
-        self.add_jump(jump);
+        self.add_jump(&mut jump);
         Ok(())
     }
 
@@ -196,12 +211,12 @@ impl Simulation {
         self.state.kinematics.time = time;
         let (before, mut jump) = found?;
         jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
-        self.add_jump(jump);
+        self.add_jump(&mut jump);
         Ok(())
     }
 
     /// Adds the jump of accelerations, multipliers and rates of states.
-    pub(super) fn add_jump(&mut self, mut jump: Vec<f64>) {
+    pub(super) fn add_jump(&mut self, jump: &mut [f64]) {
         self.stops.history.add_break(Break::Slope);
         let layout = self.system.layout();
         let kinematics = &mut self.state.kinematics;

@@ -24,7 +24,7 @@ use crate::simulation::snapshot_parts::Learned;
 use crate::system::{State, Touch};
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 26;
+const VERSION: u32 = 27;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,8 @@ pub struct Snapshot {
     belongs_to: (String, usize, usize, usize),
     states: [StateNumbers; 2],
     origin: StateNumbers,
+    /// Positions of the matrix of jumps.
+    near: Option<StateNumbers>,
     step_size: f64,
     integrator: IntegratorSnapshot,
     control: Vec<u8>,
@@ -187,12 +189,13 @@ impl Simulation {
     /// Snapshot of the simulation between two steps: a simulation of the same model that restores it continues as this one does, to
     /// the last bit.
     pub fn snapshot(&self) -> Snapshot {
-        let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
+        let with = |at: &Kinematics| (&State { kinematics: at.clone(), ..self.state.clone() }).into();
         Snapshot {
             version: VERSION,
             belongs_to: self.belonging(),
             states: [(&self.previous).into(), (&self.state).into()],
-            origin: (&origin).into(),
+            origin: with(&self.origin.kinematics),
+            near: self.near.as_ref().map(with),
             step_size: self.settings.step_size,
             integrator: IntegratorSnapshot {
                 scaled: self.integrator.scaled,
@@ -237,6 +240,7 @@ impl Simulation {
         self.previous = (&from.states[0]).into();
         self.state = (&from.states[1]).into();
         self.origin.kinematics = State::from(&from.origin).kinematics;
+        self.near = from.near.as_ref().map(|near| State::from(near).kinematics);
         self.origin.velocity_correction = from.velocity_correction;
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);
         self.stops.history.clone_from(&from.history);
