@@ -3,9 +3,9 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join, resolve } from "node:path";
+import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 import { launch, open as openPage, settled } from "../browser.js";
@@ -31,6 +31,16 @@ const view = (model, ...set) => {
   return out;
 };
 view.count = 0;
+
+/** Makes the page of an example, of the results in the folder LISSOM_EXAMPLES if they are there. */
+const viewExample = (file) => {
+  const results = join(process.env.LISSOM_EXAMPLES ?? folder, basename(file, ".toml"));
+  if (!existsSync(join(results, "done"))) return view(`examples/${file}`);
+  const out = join(folder, `page${view.count++}`);
+  mkdirSync(out);
+  execFileSync(program, ["view", results, "--html", join(out, "view.html"), "--quiet"]);
+  return out;
+};
 
 /** Opens a page that must neither complain nor ask anybody. */
 const open = async (browser, file, size = { width: 1200, height: 800 }) => {
@@ -211,7 +221,7 @@ const tests = {
   ...shapes({ folder, view, open }),
   ...shells({ folder, program, view, open, comparePlaces, plays, draws, selects }),
   ...live({ program, folder }),
-  ...examples({ root, folder, view, open }),
+  ...examples({ root, folder, view, viewExample, open }),
   "a mechanism of beams": async (browser) => {
     const out = view("examples/tip-crank.toml", "analysis.end=0.2");
     const { page, complaints } = await open(browser, join(out, "view.html"));

@@ -94,7 +94,7 @@ const overlaps = (page) =>
     return found;
   });
 
-export const examples = ({ root, folder, view, open }) => {
+export const examples = ({ root, folder, view, viewExample, open }) => {
   const files = readdirSync(join(root, "examples")).filter((file) => file.endsWith(".toml") && file !== "connecting-rod.toml");
   return {
     "parts have the dimensions of their data": async (browser) => {
@@ -133,7 +133,7 @@ export const examples = ({ root, folder, view, open }) => {
     },
     "all examples at three sizes and in both themes": async (browser) => {
       for (const file of files) {
-        const { page, complaints } = await open(browser, join(view(`examples/${file}`), "view.html"));
+        const { page, complaints } = await open(browser, join(viewExample(file), "view.html"));
         for (const [width, height] of SIZES) {
           await page.setViewportSize({ width, height });
           await page.waitForFunction(([width]) => innerWidth === width && lissom.stage.renderer.domElement.clientWidth === lissom.stage.holder.clientWidth, [width], { timeout: 60000 });
