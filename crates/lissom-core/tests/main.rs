@@ -6,3 +6,4 @@ mod dynamics;
 mod house_rules;
 mod mobility;
 mod prose;
+mod words;

@@ -74,19 +74,3 @@ impl DisabledFeatures {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_leave_out_what_they_name_and_nothing_else() {
-        for (feature, word, _) in SOLVER_FEATURES {
-            let disabled = DisabledFeatures::of_words([word]).expect("a word of the table");
-            for (other, ..) in SOLVER_FEATURES {
-                assert_eq!(disabled.allows(other), other != feature);
-            }
-        }
-        assert_eq!(DisabledFeatures::of_words(["pivoting"]), None);
-    }
-}

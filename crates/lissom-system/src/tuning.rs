@@ -98,20 +98,3 @@ impl Tuning {
         Some(self)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_change_what_they_name_and_nothing_else() {
-        for (index, (parameter, word, value, _)) in TUNING_PARAMETERS.into_iter().enumerate() {
-            assert_eq!(parameter as usize, index, "{word} stands at its place");
-            let changed = Tuning::default().times([word], 2.0).expect("a word of the table");
-            for (other, _, whole, _) in TUNING_PARAMETERS {
-                assert_eq!(changed.of(other), if other == parameter { 2.0 * value } else { whole });
-            }
-        }
-        assert_eq!(Tuning::default().times(["pivoting"], 2.0), None);
-    }
-}

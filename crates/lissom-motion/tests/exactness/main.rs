@@ -6,6 +6,7 @@ mod errors;
 mod extremes;
 mod group;
 mod inverse_tangent;
+mod jets;
 mod lanes;
 mod rotation;
 mod series;
