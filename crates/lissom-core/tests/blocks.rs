@@ -101,15 +101,19 @@ fn compare_derivatives<E: Deformable>(
     let size = elements[0].unknowns().force_count();
     let blocks = E::blocks(elements).expect("a kind that is evaluated several at a time");
     let count = elements.len().div_ceil(WIDTH);
+    let single = |element: &E| {
+        let mut single = Tangents::new(size);
+        element.linearize_stressed(at, stressed, &mut single);
+        single
+    };
+    let singles: Vec<Tangents> = elements.iter().map(single).collect();
     for processor in processors() {
         let (mut seen, mut are_damped) = (0, false);
         let done = blocks.linearize(processor, (at, stressed), 0..count, &mut |block, entries| {
             assert_eq!((block * WIDTH, entries[0].len()), (seen, size * size));
             assert!([0, size * size].contains(&entries[1].len()));
             are_damped |= !entries[1].is_empty();
-            for (lane, element) in elements[seen..].iter().take(WIDTH).enumerate() {
-                let mut single = Tangents::new(size);
-                element.linearize_stressed(at, stressed, &mut single);
+            for (lane, single) in singles[seen..].iter().take(WIDTH).enumerate() {
                 assert!(single.mass.iter().all(|&value| value == 0.0));
                 let largest = single.stiffness.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
                 assert!(largest > 0.0);

@@ -3,7 +3,7 @@
 
 use lissom_motion::{InverseTangent, Pose, Real, Screw, TangentOperator};
 
-use super::Beam;
+use super::{Beam, reference};
 
 /// Constants of an element; Gauss points `k` from 0 to N - 2, nodes `i`.
 pub(super) trait Constants<R: Real> {
@@ -15,8 +15,6 @@ pub(super) trait Constants<R: Real> {
     fn natural(&self, k: usize) -> Screw<R>;
     /// Damping by stiffness [s].
     fn damping(&self, k: usize) -> R;
-    /// w C, row after row.
-    fn law(&self, k: usize) -> [Screw<R>; 6];
     /// w C ε of the strain ε.
     fn stress(&self, k: usize, strain: Screw<R>) -> Screw<R>;
 }
@@ -123,15 +121,16 @@ fn conjugate_forces<R: Real, const N: usize>(
 
 /// Σ N_i' v_i.
 #[inline(always)]
-pub(super) fn combine_slopes<R: Real, const N: usize>(
+pub(super) fn combine_slopes<R: Real>(
     constants: &impl Constants<R>,
     k: usize,
-    vectors: &[Screw<R>; N],
+    vectors: &[Screw<R>],
 ) -> Screw<R> {
-    let next = Beam::<N>::REFERENCE + 1;
+    let reference = reference(vectors.len());
+    let next = reference + 1;
     let mut sum = vectors[next] * constants.slope(k, next);
-    for i in 0..N {
-        if i != Beam::<N>::REFERENCE && i != next {
+    for i in 0..vectors.len() {
+        if i != reference && i != next {
             sum = sum.plus_scaled(vectors[i], constants.slope(k, i));
         }
     }
@@ -140,15 +139,16 @@ pub(super) fn combine_slopes<R: Real, const N: usize>(
 
 /// Σ N_i v_i.
 #[inline(always)]
-pub(super) fn combine_shapes<R: Real, const N: usize>(
+pub(super) fn combine_shapes<R: Real>(
     constants: &impl Constants<R>,
     k: usize,
-    vectors: &[Screw<R>; N],
+    vectors: &[Screw<R>],
 ) -> Screw<R> {
-    let next = Beam::<N>::REFERENCE + 1;
+    let reference = reference(vectors.len());
+    let next = reference + 1;
     let mut sum = vectors[next].scaled(constants.shape(k, next));
-    for i in 0..N {
-        if i != Beam::<N>::REFERENCE && i != next {
+    for i in 0..vectors.len() {
+        if i != reference && i != next {
             let shape = sum.translation.x.like(constants.shape(k, i));
             sum = sum.plus_scaled(vectors[i], shape);
         }

@@ -1,5 +1,6 @@
-//! Derivatives of a beam's forces with respect to positions and twists, for one element or for several side by side, in three layers:
-//! relative coordinates d, relative variations η_i = δh_i - Ad(exp(-d_i)) δh_r, nodes.
+//! Derivatives of a beam's forces with respect to positions and twists, for several elements side by side, in three layers:
+//! relative coordinates d, relative variations η_i = δh_i - Ad(exp(-d_i)) δh_r, nodes. Long formulas do not know the number of
+//! nodes, so that they are compiled once: arrays have [`MAX_NODES`], of which the first are used.
 //!
 //! Legend: B_i = N_i' T + N_i ∂(T d')/∂d strains by coordinates, S = C (ε + θ ε̇), w_i = V_i - Ad(exp(-d_i)) V_r, D_ik = ∂g_i/∂ḋ_k.
 //!
@@ -11,57 +12,68 @@
 
 use lissom_motion::{CurvedTangent, DualMatrix, Pose, Real, Screw, TangentOperator};
 
-use super::Beam;
+use lissom_mechanics::kinematics::MAX_NODES;
+
 use super::forces::{Constants, combine_shapes, combine_slopes};
+use super::reference;
 
 /// A 6 x 6 matrix.
 type Rows<R> = [Screw<R>; 6];
 
 /// By node of the force, then by node of the variation.
-pub(super) type Matrices<R, const N: usize> = [[Rows<R>; N]; N];
+pub(super) type Matrices<R> = [[Rows<R>; MAX_NODES]; MAX_NODES];
+
+/// Constants of an element with its law.
+pub(super) trait Laws<R: Real>: Constants<R> {
+    /// w C, row after row.
+    fn law(&self, k: usize) -> [Screw<R>; 6];
+}
 
 /// The motion of the section frames of a damped beam.
-pub(super) struct Viscous<'a, R, const N: usize> {
+pub(super) struct Viscous<'a, R> {
     /// Twists, and those of the configuration whose stresses are used.
-    pub(super) twists: [&'a [Screw<R>; N]; 2],
+    pub(super) twists: [&'a [Screw<R>]; 2],
     /// Receives the derivatives with respect to the twists.
-    pub(super) damping: &'a mut Matrices<R, N>,
+    pub(super) damping: &'a mut Matrices<R>,
 }
 
 /// Positions and rates of the nodes relative to the reference node.
-struct Relative<R, const N: usize> {
+struct Relative<R> {
+    /// Number of nodes.
+    count: usize,
     /// d_i.
-    coordinates: [Screw<R>; N],
+    coordinates: [Screw<R>; MAX_NODES],
     /// Ad(exp(-d_i)): from twists and variations of the reference node to the frames of the others.
-    adjoints: [DualMatrix<R>; N],
+    adjoints: [DualMatrix<R>; MAX_NODES],
     /// T(d_i)⁻¹.
-    inverse: [TangentOperator<R>; N],
+    inverse: [TangentOperator<R>; MAX_NODES],
     /// Ad(exp(-d_i)) V_r, w_i and ḋ_i of a damped beam.
-    seen: [Screw<R>; N],
-    apart: [Screw<R>; N],
-    rates: [Screw<R>; N],
+    seen: [Screw<R>; MAX_NODES],
+    apart: [Screw<R>; MAX_NODES],
+    rates: [Screw<R>; MAX_NODES],
 }
 
-impl<R: Real, const N: usize> Relative<R, N> {
+impl<R: Real> Relative<R> {
     #[inline(always)]
-    fn new(frames: &[Pose<R>; N], twists: Option<&[Screw<R>; N]>) -> Self {
-        let reference = Beam::<N>::REFERENCE;
+    fn new(frames: &[Pose<R>], twists: Option<&[Screw<R>]>) -> Self {
+        let count = frames.len();
+        let reference = reference(count);
         let next = reference + 1;
-        let zero = Screw::zero(frames[0].position.x);
+        // What is not set below is not read.
         let first = logarithm(frames[next].relative_to(frames[reference]));
         let mut relative = Self {
-            coordinates: [zero; N],
-            adjoints: [frames[0].adjoint_inverse(); N],
-            inverse: [inverse_tangent(first); N],
-            seen: [zero; N],
-            apart: [zero; N],
-            rates: [zero; N],
+            count,
+            coordinates: [first; MAX_NODES],
+            adjoints: [frames[0].adjoint_inverse(); MAX_NODES],
+            inverse: [inverse_tangent(first); MAX_NODES],
+            seen: [first; MAX_NODES],
+            apart: [first; MAX_NODES],
+            rates: [first; MAX_NODES],
         };
-        for i in 0..N {
+        for i in 0..count {
             if i != reference {
                 let motion = frames[i].relative_to(frames[reference]);
                 relative.adjoints[i] = motion.adjoint_inverse();
-                relative.coordinates[i] = first;
                 if i != next {
                     relative.coordinates[i] = logarithm(motion);
                     relative.inverse[i] = inverse_tangent(relative.coordinates[i]);
@@ -80,54 +92,60 @@ impl<R: Real, const N: usize> Relative<R, N> {
 /// Derivatives with respect to the body variations of the section frames and to their twists, with the stresses of the frames
 /// `stressed`. Adds to `stiffness`, which is zero.
 #[inline(always)]
-pub(super) fn linearize<R: Real, const N: usize>(
-    constants: &impl Constants<R>,
-    frames: &[Pose<R>; N],
-    stressed: &[Pose<R>; N],
-    stiffness: &mut Matrices<R, N>,
-    viscous: Option<Viscous<'_, R, N>>,
+pub(super) fn linearize<R: Real>(
+    constants: &impl Laws<R>,
+    frames: &[Pose<R>],
+    stressed: &[Pose<R>],
+    stiffness: &mut Matrices<R>,
+    viscous: Option<Viscous<'_, R>>,
 ) {
-    let Some(Viscous { twists: [twists, stressed_twists], damping }) = viscous else {
-        let relative = Relative::new(frames, None);
-        let conjugate = by_coordinates(constants, &relative, &coordinates(stressed), None, stiffness, None);
-        by_relative_variations(stiffness, &relative, Some(&conjugate));
-        spread(stiffness, &relative, Some(&conjugate));
-        return;
+    let (count, reference) = (frames.len(), reference(frames.len()));
+    let (twists, mut damping) =
+        viscous.map_or((None, None), |Viscous { twists, damping }| (Some(twists), Some(damping)));
+    let relative = Relative::new(frames, twists.map(|[twists, _]| twists));
+    let (coordinates, rates) = match twists {
+        Some([_, twists]) => {
+            let from = Relative::new(stressed, Some(twists));
+            (from.coordinates, Some(from.rates))
+        }
+        None => (coordinates(stressed), None),
     };
-    let relative = Relative::new(frames, Some(twists));
-    let from = Relative::new(stressed, Some(stressed_twists));
-    let rates = Some(&from.rates);
     let conjugate =
-        by_coordinates(constants, &relative, &from.coordinates, rates, stiffness, Some(&mut *damping));
-    for i in 0..N {
-        for m in 0..N {
-            if i != Beam::<N>::REFERENCE && m != Beam::<N>::REFERENCE {
-                let turned = relative.inverse[m].derivative(relative.apart[m]);
-                add_rows(&mut stiffness[i][m], &times_from_right(turned, &damping[i][m]));
+        by_coordinates(constants, &relative, &coordinates, rates.as_ref(), stiffness, damping.as_deref_mut());
+    if let Some(damping) = &damping {
+        for i in 0..count {
+            for m in 0..count {
+                if i != reference && m != reference {
+                    let turned = relative.inverse[m].derivative(relative.apart[m]);
+                    add_rows(&mut stiffness[i][m], &times_from_right(turned, &damping[i][m]));
+                }
             }
         }
     }
     by_relative_variations(stiffness, &relative, Some(&conjugate));
-    by_relative_variations(damping, &relative, None);
-    for i in 0..N {
-        for m in 0..N {
-            if i != Beam::<N>::REFERENCE && m != Beam::<N>::REFERENCE {
-                let turning = DualMatrix::lie_bracket(relative.seen[m]);
-                subtract_rows(&mut stiffness[i][m], &times_from_right(turning, &damping[i][m]));
+    if let Some(damping) = damping {
+        by_relative_variations(damping, &relative, None);
+        for i in 0..count {
+            for m in 0..count {
+                if i != reference && m != reference {
+                    let turning = DualMatrix::lie_bracket(relative.seen[m]);
+                    subtract_rows(&mut stiffness[i][m], &times_from_right(turning, &damping[i][m]));
+                }
             }
         }
+        spread(damping, &relative, None);
     }
     spread(stiffness, &relative, Some(&conjugate));
-    spread(damping, &relative, None);
 }
 
 /// d_i.
 #[inline(always)]
-fn coordinates<R: Real, const N: usize>(frames: &[Pose<R>; N]) -> [Screw<R>; N] {
-    let mut coordinates = [Screw::zero(frames[0].position.x); N];
-    for i in 0..N {
-        if i != Beam::<N>::REFERENCE {
-            coordinates[i] = logarithm(frames[i].relative_to(frames[Beam::<N>::REFERENCE]));
+fn coordinates<R: Real>(frames: &[Pose<R>]) -> [Screw<R>; MAX_NODES] {
+    let reference = reference(frames.len());
+    let mut coordinates = [Screw::zero(frames[0].position.x); MAX_NODES];
+    for i in 0..frames.len() {
+        if i != reference {
+            coordinates[i] = logarithm(frames[i].relative_to(frames[reference]));
         }
     }
     coordinates
@@ -135,36 +153,39 @@ fn coordinates<R: Real, const N: usize>(frames: &[Pose<R>; N]) -> [Screw<R>; N] 
 
 /// Adds ∂g_i/∂d_k at constant ḋ and, with rates, ∂g_i/∂ḋ_k; returns the forces g_i conjugate to the relative coordinates.
 #[inline(always)]
-fn by_coordinates<R: Real, const N: usize>(
-    constants: &impl Constants<R>,
-    relative: &Relative<R, N>,
-    stressed: &[Screw<R>; N],
-    stressed_rates: Option<&[Screw<R>; N]>,
-    stiffness: &mut Matrices<R, N>,
-    mut damping: Option<&mut Matrices<R, N>>,
-) -> [Screw<R>; N] {
-    let reference = Beam::<N>::REFERENCE;
+fn by_coordinates<R: Real>(
+    constants: &impl Laws<R>,
+    relative: &Relative<R>,
+    stressed: &[Screw<R>; MAX_NODES],
+    stressed_rates: Option<&[Screw<R>; MAX_NODES]>,
+    stiffness: &mut Matrices<R>,
+    mut damping: Option<&mut Matrices<R>>,
+) -> [Screw<R>; MAX_NODES] {
+    let (count, reference) = (relative.count, reference(relative.count));
     let zero = Screw::zero(relative.coordinates[0].rotation.x);
-    let mut conjugate = [zero; N];
-    for k in 0..N - 1 {
+    let mut conjugate = [zero; MAX_NODES];
+    for k in 0..count - 1 {
         let (d, d_slope) = (
-            combine_shapes(constants, k, &relative.coordinates),
-            combine_slopes(constants, k, &relative.coordinates),
+            combine_shapes(constants, k, &relative.coordinates[..count]),
+            combine_slopes(constants, k, &relative.coordinates[..count]),
         );
-        let stressed_shape = combine_shapes(constants, k, stressed);
-        let stressed_slope = combine_slopes(constants, k, stressed);
+        let stressed_shape = combine_shapes(constants, k, &stressed[..count]);
+        let stressed_slope = combine_slopes(constants, k, &stressed[..count]);
         let mut strain = strain(stressed_shape, stressed_slope) - constants.natural(k);
         if let Some(rates) = stressed_rates {
-            let (rate, slope) = (combine_shapes(constants, k, rates), combine_slopes(constants, k, rates));
+            let (rate, slope) = (
+                combine_shapes(constants, k, &rates[..count]),
+                combine_slopes(constants, k, &rates[..count]),
+            );
             let rate = strain_rate((stressed_shape, stressed_slope), (rate, slope));
             strain = strain.plus_scaled(rate, constants.damping(k));
         }
         let stress = constants.stress(k, strain);
         let AtStation { along, across, turn, bend, by_slope, by_shape } = at_station(d, d_slope, stress);
         let law = constants.law(k);
-        let mut strains = [by_slope; N];
-        let mut stresses = [law; N];
-        for i in 0..N {
+        let mut strains = [by_slope; MAX_NODES];
+        let mut stresses = [law; MAX_NODES];
+        for i in 0..count {
             if i != reference {
                 let (slope, shape) = (constants.slope(k, i), zero.rotation.x.like(constants.shape(k, i)));
                 conjugate[i] = conjugate[i].plus_scaled(along, slope).plus_scaled(across, shape);
@@ -173,17 +194,17 @@ fn by_coordinates<R: Real, const N: usize>(
             }
         }
         if let Some(damping) = &mut damping {
-            let rate = combine_shapes(constants, k, &relative.rates);
-            let rate_slope = combine_slopes(constants, k, &relative.rates);
+            let rate = combine_shapes(constants, k, &relative.rates[..count]);
+            let rate_slope = combine_slopes(constants, k, &relative.rates[..count]);
             let [by_slope, by_shape] = strain_change_rates((d, d_slope), (rate, rate_slope));
             let factor = constants.damping(k);
-            for m in 0..N {
+            for m in 0..count {
                 if m != reference {
                     let mut viscous = stresses[m];
                     for row in 0..6 {
                         viscous[row] = viscous[row] * factor;
                     }
-                    for i in 0..N {
+                    for i in 0..count {
                         if i != reference {
                             add_rows(&mut damping[i][m], &transpose_times_rows(strains[i], &viscous));
                         }
@@ -195,8 +216,8 @@ fn by_coordinates<R: Real, const N: usize>(
                 }
             }
         }
-        for i in 0..N {
-            for m in 0..N {
+        for i in 0..count {
+            for m in 0..count {
                 if i != reference && m != reference {
                     add_rows(&mut stiffness[i][m], &transpose_times_rows(strains[i], &stresses[m]));
                     let (own, other) = (constants.shape(k, i), constants.shape(k, m));
@@ -321,15 +342,16 @@ fn at_station<R: Real>(d: Screw<R>, d_slope: Screw<R>, stress: Screw<R>) -> AtSt
 
 /// From ∂g_i/∂d_k to ∂F_i/∂η_k.
 #[inline(always)]
-fn by_relative_variations<R: Real, const N: usize>(
-    blocks: &mut Matrices<R, N>,
-    relative: &Relative<R, N>,
-    conjugate: Option<&[Screw<R>; N]>,
+fn by_relative_variations<R: Real>(
+    blocks: &mut Matrices<R>,
+    relative: &Relative<R>,
+    conjugate: Option<&[Screw<R>; MAX_NODES]>,
 ) {
+    let (count, reference) = (relative.count, reference(relative.count));
     let inverse = &relative.inverse;
-    for i in 0..N {
-        for m in 0..N {
-            if i != Beam::<N>::REFERENCE && m != Beam::<N>::REFERENCE {
+    for i in 0..count {
+        for m in 0..count {
+            if i != reference && m != reference {
                 let mut change = transpose_times_rows(inverse[i].matrix(), &blocks[i][m]);
                 if let Some(conjugate) = conjugate
                     && i == m
@@ -345,14 +367,14 @@ fn by_relative_variations<R: Real, const N: usize>(
 /// From ∂F_i/∂η_k of the relative nodes to all nodes: η_k = δh_k - A_k δh_r, F_r = - Σ A_iᵀ F_i and
 /// δ(A_iᵀ) F_i = - A_iᵀ X(F_i) η_i, where the last term belongs to variations of positions.
 #[inline(always)]
-fn spread<R: Real, const N: usize>(
-    blocks: &mut Matrices<R, N>,
-    relative: &Relative<R, N>,
-    conjugate: Option<&[Screw<R>; N]>,
+fn spread<R: Real>(
+    blocks: &mut Matrices<R>,
+    relative: &Relative<R>,
+    conjugate: Option<&[Screw<R>; MAX_NODES]>,
 ) {
-    let reference = Beam::<N>::REFERENCE;
-    for m in 0..N {
-        for i in 0..N {
+    let (count, reference) = (relative.count, reference(relative.count));
+    for m in 0..count {
+        for i in 0..count {
             if i != reference && m != reference {
                 let mut change = blocks[i][m];
                 if let Some(conjugate) = conjugate
@@ -368,8 +390,8 @@ fn spread<R: Real, const N: usize>(
             }
         }
     }
-    for i in 0..N {
-        for m in 0..N {
+    for i in 0..count {
+        for m in 0..count {
             if m != reference {
                 let seen = times_from_right(relative.adjoints[m], &blocks[i][m]);
                 subtract_rows(&mut blocks[i][reference], &seen);
@@ -380,9 +402,9 @@ fn spread<R: Real, const N: usize>(
 
 /// From variations of the section frames to those of the nodes, relative to which the section frames are `offsets`.
 #[inline(always)]
-pub(super) fn through_offsets<R: Real, const N: usize>(blocks: &mut Matrices<R, N>, offsets: &[Pose<R>; N]) {
-    for i in 0..N {
-        for m in 0..N {
+pub(super) fn through_offsets<R: Real>(blocks: &mut Matrices<R>, offsets: &[Pose<R>]) {
+    for i in 0..offsets.len() {
+        for m in 0..offsets.len() {
             let seen = times_from_right(offsets[m].adjoint_inverse(), &blocks[i][m]);
             blocks[i][m] = transpose_times_rows(offsets[i].adjoint_inverse(), &seen);
         }

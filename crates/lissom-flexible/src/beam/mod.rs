@@ -33,12 +33,11 @@ use lissom_motion::{
 
 use blocks::BeamBlocks;
 use forces::{Constants, forces};
-use linearize::{Viscous, linearize, through_offsets};
 
 use lissom_mechanics::elements::quadrature::gauss_legendre;
 use lissom_mechanics::elements::shape::lagrange;
 use lissom_mechanics::elements::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns};
-use lissom_mechanics::evaluation::blocks::Blocks;
+use lissom_mechanics::evaluation::blocks::{Blocks, linearize_alone};
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 use lissom_mechanics::kinematics::{Kinematics, NodeId, Stressed, split};
 
@@ -90,7 +89,7 @@ pub(super) type Relative<const N: usize> = [Vector6; N];
 
 impl<const N: usize> Beam<N> {
     /// The reference node of relative motions: one in the middle, so that relative rotations are small.
-    pub const REFERENCE: usize = (N - 1) / 2;
+    pub const REFERENCE: usize = reference(N);
 
     /// A beam element, stress-free if the section frames at its nodes are `natural`. `law(ξ)` is the section's law at
     /// ξ ∈ [-1, 1]; `offsets` are the section frames relative to the nodes' frames.
@@ -271,6 +270,11 @@ impl<const N: usize> Beam<N> {
     }
 }
 
+/// The reference node of relative motions of this number of nodes.
+pub(super) const fn reference(nodes: usize) -> usize {
+    (nodes - 1) / 2
+}
+
 /// Σ N_i d_i.
 pub(super) fn combine<const N: usize>(weights: &[f64; N], vectors: &Relative<N>) -> Vector6 {
     let mut sum = Vector6::zeros();
@@ -336,11 +340,6 @@ impl<const N: usize> Constants<f64> for Beam<N> {
 
     fn damping(&self, k: usize) -> f64 {
         self.stations[k].law.damping
-    }
-
-    fn law(&self, k: usize) -> [Screw<f64>; 6] {
-        let station = &self.stations[k];
-        std::array::from_fn(|i| (&(station.weight * station.law.stiffness.row(i).transpose())).into())
     }
 
     fn stress(&self, k: usize, strain: Screw<f64>) -> Screw<f64> {
@@ -422,23 +421,7 @@ impl<const N: usize> Element for Beam<N> {
 
 impl<const N: usize> Deformable for Beam<N> {
     fn linearize_stressed(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
-        let frames =
-            [at, stressed.at].map(|at| std::array::from_fn(|i| Pose::from(&self.section_frame(at, i))));
-        let twists = [at, stressed.at].map(|at| std::array::from_fn(|i| (&self.section_twist(at, i)).into()));
-        let offsets = self.offsets.map(|offset| Pose::from(&offset.unwrap_or_default()));
-        let zeros = [[[Screw::zero(0.0); 6]; N]; N];
-        let [mut stiffness, mut damping] = [zeros; 2];
-        let viscous = self.is_damped().then(|| Viscous { twists: twists.each_ref(), damping: &mut damping });
-        linearize(self, &frames[0], &frames[1], &mut stiffness, viscous);
-        for (blocks, out) in [(&mut stiffness, &mut out.stiffness), (&mut damping, &mut out.damping)] {
-            through_offsets(blocks, &offsets);
-            for (i, k, row) in
-                (0..N).flat_map(|i| (0..N).flat_map(move |k| (0..6).map(move |row| (i, k, row))))
-            {
-                let own = &mut out[6 * N * (6 * i + row) + 6 * k..][..6];
-                own.iter_mut().zip(blocks[i][k][row].components()).for_each(|(sum, value)| *sum += value);
-            }
-        }
+        linearize_alone(&BeamBlocks::new(std::slice::from_ref(self)), (at, stressed), out);
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {

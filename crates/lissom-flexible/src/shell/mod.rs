@@ -33,13 +33,12 @@ use self::blocks::ShellBlocks;
 use self::constants::{Constants, Numbers};
 use self::forces::forces;
 use self::interpolation::interpolation;
-use self::linearize::{SIZE, linearize, predicted};
 use self::quadrilateral::{EDGES, GAUSS, GAUSS_POINTS, NODES, STRAINS};
 use self::reference::Reference;
 use self::section::ShellLaw;
 use self::strains::Deformed;
 use lissom_mechanics::elements::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns};
-use lissom_mechanics::evaluation::blocks::Blocks;
+use lissom_mechanics::evaluation::blocks::{Blocks, linearize_alone};
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 use lissom_mechanics::kinematics::{Kinematics, NodeId, Stressed};
 
@@ -201,18 +200,7 @@ impl Element for Shell {
 
 impl Deformable for Shell {
     fn linearize_stressed(&self, at: &Kinematics, stressed: Stressed<'_>, out: &mut Tangents) {
-        let mut matrix = [[0.0; SIZE]; SIZE];
-        let frames = self.frames(at);
-        let stress = if let Some(previous) = stressed.previous {
-            predicted(&self.numbers, &self.frames(previous), &frames)
-        } else {
-            let deformed = Deformed::at(&self.numbers, &self.frames(stressed.at));
-            forces::stress(&self.numbers, &deformed.strains(&self.numbers))
-        };
-        linearize(&self.numbers, &frames, &stress, &mut matrix);
-        for (sum, value) in out.stiffness.iter_mut().zip(matrix.as_flattened()) {
-            *sum += value;
-        }
+        linearize_alone(&ShellBlocks::new(std::slice::from_ref(self)), (at, stressed), out);
     }
 
     fn predicts_stresses(&self) -> bool {

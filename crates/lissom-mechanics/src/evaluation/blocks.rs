@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use lissom_motion::{Block, WIDTH};
 
+use super::element::Tangents;
 use crate::kinematics::{Kinematics, NodeId, Stressed};
 
 /// All elements of a batch, in blocks of eight.
@@ -34,6 +35,15 @@ pub trait Blocks: Send + Sync {
     ) -> bool {
         false
     }
+}
+
+/// Adds the derivatives of the only element.
+pub fn linearize_alone(element: &impl Blocks, at_stressed: (&Kinematics, Stressed<'_>), out: &mut Tangents) {
+    element.linearize(pulp::Arch::Scalar, at_stressed, 0..1, &mut |_, entries| {
+        for (values, entries) in [&mut out.stiffness, &mut out.damping].into_iter().zip(entries) {
+            values.iter_mut().zip(entries).for_each(|(sum, entry)| *sum += entry[0]);
+        }
+    });
 }
 
 /// A constant of each element of a block.
