@@ -124,7 +124,7 @@ impl<S: Simd> Real for Lanes<S> {
 
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
-        self.simd.vectorize(work)
+        if const { S::F64_LANES == 1 } { separately(work) } else { self.simd.vectorize(work) }
     }
 
     #[inline(always)]
@@ -148,6 +148,11 @@ impl<S: Simd> Real for Lanes<S> {
         }
         lanes
     }
+}
+
+#[inline(never)]
+fn separately<T>(work: impl FnOnce() -> T) -> T {
+    work()
 }
 
 #[cold]

@@ -607,6 +607,30 @@ impl Pack {
         }
     }
 
+    /// Relative motion in time. Compiled once for joints of all kinds.
+    #[inline(always)]
+    fn relative_jets<S: Simd>(
+        &self,
+        part: Part<S>,
+        start: &StartBlock,
+        motion: &GatheredMotion,
+    ) -> RelativeIncrement<Jet<Lanes<S>>> {
+        Lanes::splat(part.simd, 0.0).apart(
+            #[inline(always)]
+            || {
+                let [base, tip] = [0, 1].map(|side| {
+                    let offset = part.frame(&self.offsets[side]);
+                    FrameMotion {
+                        twist: offset.adjoint_inverse_times(part.screw(&motion.twists[side])),
+                        rate: offset.adjoint_inverse_times(part.screw(&motion.accelerations[side])),
+                    }
+                });
+                let here = (axes(part, &start.rotation), triple(part, &start.place, 0));
+                relative_motion(here, base, tip)
+            },
+        )
+    }
+
     /// Violations in time; their values are zero.
     #[inline(always)]
     fn violation_jets<J: Joint, S: Simd>(
@@ -615,15 +639,7 @@ impl Pack {
         start: &StartBlock,
         motion: &GatheredMotion,
     ) -> [Jet<Lanes<S>>; MAX_EQUATIONS] {
-        let [base, tip] = [0, 1].map(|side| {
-            let offset = part.frame(&self.offsets[side]);
-            FrameMotion {
-                twist: offset.adjoint_inverse_times(part.screw(&motion.twists[side])),
-                rate: offset.adjoint_inverse_times(part.screw(&motion.accelerations[side])),
-            }
-        });
-        let here = (axes(part, &start.rotation), triple(part, &start.place, 0));
-        let increment = relative_motion(here, base, tip);
+        let increment = self.relative_jets(part, start, motion);
         let zero = Lanes::splat(part.simd, 0.0);
         let mut own = CoordinateIncrement {
             change: [Jet::constant(zero); MAX_COORDINATES],
