@@ -5,3 +5,4 @@ mod fuzz;
 mod meshes;
 mod parts;
 mod support;
+mod tables;

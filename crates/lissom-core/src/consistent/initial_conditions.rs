@@ -52,6 +52,9 @@ pub struct ConsistentInitialConditions {
     pub(crate) weights: Vec<f64>,
     /// Initial values of joints for the differentiation of constraints.
     starts: JointStarts,
+    /// Positions of the factor that jumps keep, and whether it is the last one.
+    pub(crate) near: Option<Kinematics>,
+    pub(super) is_kept: bool,
 }
 
 impl ConsistentInitialConditions {
@@ -73,6 +76,8 @@ impl ConsistentInitialConditions {
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             weights: Vec::new(),
             starts: JointStarts::default(),
+            near: None,
+            is_kept: false,
         }
     }
 
@@ -82,6 +87,7 @@ impl ConsistentInitialConditions {
         state: &State,
         inertias: Inertias,
     ) -> Result<(), InitialError> {
+        (self.near, self.is_kept) = (None, false);
         if self.redundancy.follow(system, &state.kinematics) {
             self.saddle.omit(self.redundancy.omitted());
         }
@@ -169,16 +175,36 @@ impl ConsistentInitialConditions {
         for _ in 0..2 {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
-            let constraints: Vec<f64> = rest[count..].to_vec();
-            self.add_transposed(system, &constraints, &mut rest);
-            rest[count..].iter_mut().for_each(|value| *value *= self.scale);
-            self.saddle.solve(&mut rest);
-            for (row, value) in rest.iter().enumerate() {
-                solution[row] += if row < count { *value } else { self.scale * value };
-            }
+            self.solve_scaled(system, &mut rest);
+            solution.iter_mut().zip(&rest).for_each(|(solution, change)| *solution += change);
         }
         right.copy_from_slice(&solution);
-        self.redundancy.reduce_to_least_norm(&mut right[count..]);
+        self.reduce_to_least_norm(&mut right[count..]);
+    }
+
+    /// The same once, with any multipliers.
+    pub(super) fn solve_once(&mut self, system: &System, right: &mut [f64]) {
+        self.redundancy.remove_misfit(&mut right[system.layout().coordinate_count()..]);
+        self.solve_scaled(system, right);
+    }
+
+    fn solve_scaled(&mut self, system: &System, right: &mut [f64]) {
+        let count = system.layout().coordinate_count();
+        let constraints: Vec<f64> = right[count..].to_vec();
+        self.add_transposed(system, &constraints, right);
+        right[count..].iter_mut().for_each(|value| *value *= self.scale);
+        self.saddle.solve(right);
+        right[count..].iter_mut().for_each(|value| *value *= self.scale);
+    }
+
+    pub(super) fn reduce_to_least_norm(&self, multipliers: &mut [f64]) {
+        self.redundancy.reduce_to_least_norm(multipliers);
+    }
+
+    /// Largest entry of a solution, accelerations as forces on the representative mass.
+    pub(super) fn largest_force(&self, solution: &[f64], count: usize) -> f64 {
+        let largest = |own: &[f64]| own.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        (self.scale * largest(&solution[..count])).max(largest(&solution[count..]))
     }
 
     /// M x of the last linearisation.
@@ -424,30 +450,6 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// Jump of accelerations and multipliers, by row, at a change to the held values `held`, with the last factorisation. The rows of
-    /// first-order states contain the change of their rates.
-    pub(crate) fn acceleration_jump(
-        &mut self,
-        system: &System,
-        state: &State,
-        held: &[f64],
-    ) -> Result<Vec<f64>, InitialError> {
-        // Unless forces depend on multipliers, one solution for the difference is sufficient.
-        let by_repetition = system.sees_multipliers();
-        let mut of = |at: &Kinematics| {
-            if by_repetition { self.repeated(system, at.clone()) } else { Ok(self.right_side(system, at)) }
-        };
-        let mut at = without_accelerations(system.layout(), state);
-        let before = of(&at)?;
-        at.held.copy_from_slice(held);
-        let mut jump = of(&at)?;
-        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
-        if !by_repetition {
-            self.solve(system, &mut jump);
-        }
-        Ok(jump)
-    }
-
     /// Accelerations and multipliers by row. The rows of first-order states contain the residuals of their rates.
     pub(crate) fn acceleration_at(
         &mut self,
@@ -469,7 +471,7 @@ impl ConsistentInitialConditions {
 
     /// The same for a motion without accelerations. If forces depend on multipliers, they are found by fixed-point iteration, because
     /// friction is small compared with normal forces.
-    fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
+    pub(super) fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
         let count = system.layout().coordinate_count();
         let (mut change, mut solution) = (f64::INFINITY, Vec::new());
         let mut relaxation = 1.0;
@@ -500,18 +502,23 @@ impl ConsistentInitialConditions {
 
     /// [-f; -(Ḃ v + ∂²c/∂t²)] at a motion without accelerations.
     fn right_side(&mut self, system: &System, at: &Kinematics) -> Vec<f64> {
-        let layout = system.layout();
-        let zero = vec![0.0; layout.multiplier_count];
-        let mut right = vec![0.0; layout.size()];
-        system.residual(&self.point(at, &zero), &mut right);
-        let mut rates = zero;
-        system.begin_step(at, &mut self.starts);
-        let accelerations = &mut right[layout.coordinate_count()..];
-        system.violation_rates(at, &self.starts, [&mut rates, accelerations]);
+        let mut right = self.left_side(system, at, &vec![0.0; system.layout().multiplier_count]);
         for value in &mut right {
             *value = -*value;
         }
         right
+    }
+
+    /// Left-hand sides of the equations of motion, and accelerations of the violations.
+    pub(super) fn left_side(&mut self, system: &System, at: &Kinematics, multipliers: &[f64]) -> Vec<f64> {
+        let layout = system.layout();
+        let mut left = vec![0.0; layout.size()];
+        system.residual(&self.point(at, multipliers), &mut left);
+        let mut rates = vec![0.0; layout.multiplier_count];
+        system.begin_step(at, &mut self.starts);
+        let accelerations = &mut left[layout.coordinate_count()..];
+        system.violation_rates(at, &self.starts, [&mut rates, accelerations]);
+        left
     }
 
     /// Accelerations by row `delay` [s] after (or before) the state, for schemes whose history starts there: v̇ + delay v̈, with v̈ from a
@@ -560,7 +567,7 @@ impl ConsistentInitialConditions {
 }
 
 /// The motion of a state with accelerations of zero.
-fn without_accelerations(layout: &Layout, state: &State) -> Kinematics {
+pub(super) fn without_accelerations(layout: &Layout, state: &State) -> Kinematics {
     let mut at = state.kinematics.clone();
     scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
     at

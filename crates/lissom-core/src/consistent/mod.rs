@@ -2,6 +2,7 @@
 
 mod driven_start;
 pub mod initial_conditions;
+mod jump;
 pub(crate) mod loops;
 pub mod mobility;
 mod open_trees;

@@ -105,8 +105,6 @@ impl Simulation {
             state,
             settings,
             held_values,
-            jump: None,
-            near: None,
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             energy_balance,
             warnings,

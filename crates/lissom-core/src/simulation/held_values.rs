@@ -3,7 +3,7 @@
 //! Forces jump with them, and accelerations by M⁻¹ ΔF. The accelerations in a scheme's history jump as well. Otherwise the scheme would
 //! include the change late by a fraction of a step: an error of first order in every velocity.
 
-use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
+use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::joints::latch::{Latch, holds};
@@ -11,7 +11,6 @@ use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
 use crate::simulation::Simulation;
-use crate::simulation::recovery::jump::AccelerationJump;
 use crate::simulation::rigid_contacts::impact_of_latches;
 use crate::simulation::signal_history::{Break, SignalHistory};
 use crate::system::{State, System};
@@ -166,29 +165,13 @@ impl Simulation {
             let time = self.state.kinematics.time;
             return self.switch_constraints(&[], Some(at.held), [time; 2]);
         }
-        if self.held_values.is_none() {
+        let Some(initial) = &mut self.held_values else {
             self.state.kinematics = at;
             return Ok(());
-        }
-        if let Some(near) = &self.near {
-            let mut finder = self.jump.take().unwrap_or_else(|| Box::new(AccelerationJump::of(self)));
-            let jump = finder.find(&self.system, &self.state, (&at.held, near));
-            let is_found = jump.is_some();
-            if let Some(jump) = jump {
-                self.state.kinematics.held.copy_from_slice(&at.held);
-                self.add_jump(jump);
-            }
-            self.jump = Some(finder);
-            if is_found {
-                return Ok(());
-            }
-        }
-        let Some(initial) = &mut self.held_values else { return Ok(()) };
-        // The matrix does not change.
-        initial.factor(&self.system, &self.state, Inertias::All)?;
-        let mut jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
+        };
+        let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
         self.state.kinematics.held = at.held;
-        self.add_jump(&mut jump);
+        self.add_jump(jump);
         Ok(())
     }
 
@@ -211,12 +194,12 @@ impl Simulation {
         self.state.kinematics.time = time;
         let (before, mut jump) = found?;
         jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
-        self.add_jump(&mut jump);
+        self.add_jump(jump);
         Ok(())
     }
 
     /// Adds the jump of accelerations, multipliers and rates of states.
-    pub(super) fn add_jump(&mut self, jump: &mut [f64]) {
+    pub(super) fn add_jump(&mut self, mut jump: Vec<f64>) {
         self.stops.history.add_break(Break::Slope);
         let layout = self.system.layout();
         let kinematics = &mut self.state.kinematics;

@@ -27,7 +27,6 @@ pub(crate) use arc::ArcControl;
 pub use conditioning::{Condition, ConditionMethod};
 pub(crate) use event_detector::{EventDetector, EventState};
 pub use held_values::InputError;
-use recovery::jump::AccelerationJump;
 pub use recovery::{Recovered, Recovery};
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use stops::Stops;
@@ -76,10 +75,6 @@ pub struct Simulation {
     pub(crate) events: EventDetector,
     /// Solver for jumps of accelerations where held values change between steps.
     pub(crate) held_values: Option<ConsistentInitialConditions>,
-    /// The same with the matrix of positions near the state; none before the first such jump, or without it.
-    pub(crate) jump: Option<Box<AccelerationJump>>,
-    /// These positions.
-    pub(crate) near: Option<Kinematics>,
     /// Quantities that depend on the whole motion.
     pub(crate) accumulation: Accumulation,
     pub(crate) monitors: Monitors,

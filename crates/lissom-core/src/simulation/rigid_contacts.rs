@@ -582,8 +582,8 @@ impl Simulation {
         let changed = change();
         self.state.kinematics.time = time;
         match changed {
-            Ok((outcome, mut jump, latched)) => {
-                self.add_jump(&mut jump);
+            Ok((outcome, jump, latched)) => {
+                self.add_jump(jump);
                 let mut before = &kept.kinematics;
                 if let Some(latched) = &latched {
                     let of_touches = self.state.touch_energy();

@@ -181,7 +181,6 @@ impl Simulation {
                 progress.start = Some(Box::new(start));
             }
             self.accept_attempt();
-            self.follow_turn();
             let (report, outcome) = (&mut *progress.report, &self.attempt.outcome);
             report.parts += 1;
             report.correction = outcome.correction;

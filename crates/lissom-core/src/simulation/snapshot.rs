@@ -33,14 +33,14 @@ pub struct Snapshot {
     /// Scheme, unknowns, nodes and entries of the tangent, which identify the model.
     belongs_to: (String, usize, usize, usize),
     states: [StateNumbers; 2],
-    origin: StateNumbers,
-    /// Positions of the matrix of jumps.
+    /// Motion at the start, and the correction of its velocities.
+    origin: (StateNumbers, f64),
+    /// Positions of the factor that jumps keep.
     near: Option<StateNumbers>,
     step_size: f64,
     integrator: IntegratorSnapshot,
     control: Vec<u8>,
     totals: Totals,
-    velocity_correction: f64,
     energy_balance: EnergyBalance,
     warnings: Vec<Warning>,
     event_state: EventState,
@@ -190,12 +190,13 @@ impl Simulation {
     /// the last bit.
     pub fn snapshot(&self) -> Snapshot {
         let with = |at: &Kinematics| (&State { kinematics: at.clone(), ..self.state.clone() }).into();
+        let near = self.held_values.as_ref().and_then(|initial| initial.near.as_ref());
         Snapshot {
             version: VERSION,
             belongs_to: self.belonging(),
             states: [(&self.previous).into(), (&self.state).into()],
-            origin: with(&self.origin.kinematics),
-            near: self.near.as_ref().map(with),
+            origin: (with(&self.origin.kinematics), self.origin.velocity_correction),
+            near: near.map(with),
             step_size: self.settings.step_size,
             integrator: IntegratorSnapshot {
                 scaled: self.integrator.scaled,
@@ -204,7 +205,6 @@ impl Simulation {
             },
             control: self.control.save(),
             totals: self.totals,
-            velocity_correction: self.origin.velocity_correction,
             energy_balance: self.energy_balance,
             warnings: self.warnings.clone(),
             event_state: self.events.known.clone(),
@@ -239,9 +239,11 @@ impl Simulation {
         }
         self.previous = (&from.states[0]).into();
         self.state = (&from.states[1]).into();
-        self.origin.kinematics = State::from(&from.origin).kinematics;
-        self.near = from.near.as_ref().map(|near| State::from(near).kinematics);
-        self.origin.velocity_correction = from.velocity_correction;
+        self.origin.kinematics = State::from(&from.origin.0).kinematics;
+        self.origin.velocity_correction = from.origin.1;
+        if let Some(initial) = &mut self.held_values {
+            initial.keep_from(from.near.as_ref().map(|near| State::from(near).kinematics));
+        }
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);
         self.stops.history.clone_from(&from.history);
         self.settings.step_size = from.step_size;

@@ -8,17 +8,16 @@
 //! s is a mass, and W converts radians to lengths. Solutions are not refined: right-hand sides are residuals evaluated at the present
 //! state, so that the error is a fraction of a correction.
 
-use lissom_solver::Pattern;
+use lissom_solver::{Pattern, SolverKind};
 
 use super::stiff_parts::StiffParts;
 use crate::consistent::redundancy::Redundancy;
-use crate::integrator::pivoting_unless_augmented;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
-use crate::kinematics::{Kinematics, Layout, MotionChange, Quantity};
+use crate::kinematics::{Kinematics, Layout, MotionChange};
 use crate::saddle_point::{Matrix, SaddlePoint};
-use crate::simulation::Simulation;
-use crate::system::{Blend, Scratch, Sum, System, TangentAssembler};
+use crate::scaling::Representative;
+use crate::system::{Blend, Scratch, State, Sum, System, TangentAssembler};
 
 /// Smallest pivot, relative to its terms, with which solutions are accurate to round-off.
 const WELL_CONDITIONED: f64 = 1e-6;
@@ -46,8 +45,6 @@ pub(super) struct RecoveryMatrix {
     /// s.
     scale: f64,
     augmentation: Augmentation,
-    /// Positions of the factors; none if they are those of the present instant itself.
-    near: Option<Kinematics>,
     /// W by multiplier.
     weights: Vec<f64>,
     still: Vec<MotionChange>,
@@ -62,11 +59,12 @@ pub(super) struct RecoveryMatrix {
 }
 
 impl RecoveryMatrix {
-    /// Storage for the matrices of a simulation, with the stiffness of elements that may be stiff or without.
-    pub(super) fn of(simulation: &Simulation, is_stiff: bool) -> Self {
-        let (system, state) = (simulation.system(), simulation.state());
-        let (representative, redundancy) = (simulation.representative(), simulation.redundancy().clone());
-        let kind = pivoting_unless_augmented(simulation.settings());
+    /// Storage for the matrices of `system`.
+    pub(super) fn new(
+        (system, state): (&System, &State),
+        (representative, redundancy): (&Representative, Redundancy),
+        kind: &'static SolverKind,
+    ) -> Self {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let count = layout.coordinate_count();
         let augmentation = Augmentation::of_lengths(representative.length);
@@ -84,11 +82,10 @@ impl RecoveryMatrix {
         Self {
             saddle,
             redundancy,
-            stiff: is_stiff.then(|| StiffParts::new(system)),
+            stiff: system.has_stiff_elements().then(|| StiffParts::new(system)),
             scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             augmentation,
-            near: None,
             // Constraints of velocities are not augmented.
             weights: layout.quantities()[count..]
                 .iter()
@@ -105,43 +102,20 @@ impl RecoveryMatrix {
         }
     }
 
-    /// Prepares solutions at the positions `at` with the matrix of other positions near them, if they are given; none if it is singular.
-    /// K is used by `solutions` that follow each other.
-    pub(super) fn prepare(
+    /// Assembles and factors the matrix at these positions; none if it is singular. K is used by `solutions` that follow each other.
+    pub(super) fn factor(
         &mut self,
-        (system, at, near): (&System, &Kinematics, Option<&Kinematics>),
+        (system, at): (&System, &Kinematics),
         time: f64,
         solutions: usize,
     ) -> Option<()> {
+        system.begin_step(at, &mut self.starts);
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            self.near = None;
         }
-        if near.is_none() || self.near.as_ref() != near {
-            let of = near.unwrap_or(at);
-            self.near = None;
-            system.begin_step(of, &mut self.starts);
-            self.assemble((system, of), time, solutions);
-            self.saddle.factor(system.structure(), self.scale).ok()?;
-            self.near = near.cloned();
-        }
-        if near.is_some() {
-            system.begin_step(at, &mut self.starts);
-        }
+        self.assemble((system, at), time, solutions);
+        self.saddle.factor(system.structure(), self.scale).ok()?;
         Some(())
-    }
-
-    /// Lengths and forces that an entry of each row is worth: accelerations are counted as forces on the mass s.
-    pub(super) fn units(&self, layout: &Layout, length: f64) -> Vec<f64> {
-        let count = layout.coordinate_count();
-        let of = |(row, quantity): (usize, &Quantity)| match (row < count, quantity) {
-            (true, Quantity::Length) => self.scale,
-            (true, Quantity::Angle) => self.scale * length,
-            (false, Quantity::Angle) => 1.0 / length,
-            (false, _) => 1.0,
-            (true, Quantity::State) => 0.0,
-        };
-        layout.quantities().iter().enumerate().map(of).collect()
     }
 
     fn assemble(&mut self, (system, at): (&System, &Kinematics), time: f64, solutions: usize) {
@@ -151,9 +125,6 @@ impl RecoveryMatrix {
         values.fill(0.0);
         let scale = self.scale;
         system.linearize_elements(false, at, &mut scratch, &mut inertial(scale, &mut values));
-        if self.stiff.is_none() && system.has_stiff_elements() {
-            system.linearize_elements(true, at, &mut scratch, &mut inertial(scale, &mut values));
-        }
         if let Some(stiff) = &mut self.stiff {
             stiff.linearize((system, at), &mut scratch);
             let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
@@ -236,20 +207,9 @@ impl RecoveryMatrix {
 
     /// Left-hand sides of the equations of motion in the coordinate rows; zero in the other rows.
     pub(super) fn residual(&self, system: &System, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
-        self.residual_with_rates(system, at, multipliers, out);
-        self.clear_rates(system.layout(), out);
-    }
-
-    /// The same with the equations of rates.
-    pub(super) fn residual_with_rates(
-        &self,
-        system: &System,
-        at: &Kinematics,
-        multipliers: &[f64],
-        out: &mut [f64],
-    ) {
         system.residual(&self.point(at, multipliers), out);
         out[system.layout().coordinate_count()..].fill(0.0);
+        self.clear_rates(system.layout(), out);
     }
 
     /// Sets the rows of equations of rates to zero.

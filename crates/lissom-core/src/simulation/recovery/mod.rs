@@ -19,12 +19,11 @@
 //! equilibrium, also if friction depends on multipliers. Nothing is filtered, and K, c and x are zero, without elements that are stiff:
 //! if τ² ω² ≤ ρ for all frequencies ω, n solutions remove a share of at most ρⁿ. Derivation: docs/theory/recovery.md.
 
-mod corrections;
-pub(crate) mod jump;
 mod matrix;
 mod stiff_parts;
 
 use crate::consistent::initial_conditions::{gather_accelerations, gather_rates, scatter_accelerations};
+use crate::integrator::pivoting_unless_augmented;
 use crate::kinematics::{Kinematics, LOCKED, Layout, Switch};
 use crate::round_off;
 use crate::simulation::Simulation;
@@ -106,10 +105,15 @@ impl Recovery {
         if !settings.scheme.dynamic || !system.contacts().is_empty() {
             return None;
         }
+        let kind = pivoting_unless_augmented(settings);
         let by_row = || vec![0.0; system.layout().size()];
         let by_multiplier = || vec![0.0; system.layout().multiplier_count];
         Some(Box::new(Self {
-            matrix: RecoveryMatrix::of(simulation, system.has_stiff_elements()),
+            matrix: RecoveryMatrix::new(
+                (system, state),
+                (simulation.representative(), simulation.redundancy().clone()),
+                kind,
+            ),
             breakpoints: system.breakpoints(),
             stages: settings.scheme.stages.len(),
             found: Recovered { rates: state.clone(), forces: state.clone() },
@@ -144,8 +148,7 @@ impl Recovery {
         let time = 0.5 * step / self.stages.saturating_sub(1).max(1) as f64;
         self.found.rates.clone_from(state);
         hold_sides(system, &mut self.work.switches, &mut self.found.rates.kinematics);
-        let at = &self.found.rates.kinematics;
-        self.matrix.prepare((system, at, None), time, self.stages.max(2))?;
+        self.matrix.factor((system, &self.found.rates.kinematics), time, self.stages.max(2))?;
         self.find_lacking_velocities(system);
         if need == Need::Forces {
             self.found.forces.clone_from(&self.found.rates);
