@@ -236,13 +236,10 @@ impl ConsistentInitialConditions {
             }
             let column = count + k;
             let violation = self.augmentation().relative(system.layout().quantities()[column]) * violation;
+            let factor = self.scale * violation;
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-            for position in range {
-                let row = pattern.row_indices()[position];
-                if row < count {
-                    rest[row] += self.scale * self.linearization.constraint[position] * violation;
-                }
-            }
+            let entries = pattern.column(column).iter().zip(&self.linearization.constraint[range]);
+            entries.filter(|&(&row, _)| row < count).for_each(|(&row, entry)| rest[row] += entry * factor);
         }
     }
 

@@ -38,8 +38,7 @@ impl ConsistentInitialConditions {
                     self.factor(system, &near, Inertias::All)?;
                 }
                 if let Some((jump, corrections)) = self.corrected_jump(system, state, held) {
-                    // A factor counts as many corrections as a tangent, which is of two stages, counts iterations.
-                    let is_worth = corrections <= 2.0 * Tuning::default().of(TuningParameter::TangentCost);
+                    let is_worth = corrections <= Tuning::default().of(TuningParameter::TangentCost);
                     (self.near, self.is_kept) = (Some(near).filter(|_| is_worth), is_worth);
                     return Ok(jump);
                 }
@@ -77,8 +76,10 @@ impl ConsistentInitialConditions {
             if repetition == 0 {
                 first = size;
             }
-            let is_slow = size.is_nan() || size > 0.5 * last;
-            if size <= round_off::SOLUTION * first || is_slow && size <= round_off::ITERATION * first {
+            let contraction = size / last;
+            let is_slow = size.is_nan() || contraction > 0.5;
+            let remaining = if repetition == 0 || is_slow { size } else { size * contraction };
+            if remaining <= round_off::SOLUTION * first || is_slow && size <= round_off::ITERATION * first {
                 self.reduce_to_least_norm(&mut jump[count..]);
                 return jump.iter().all(|value| value.is_finite()).then_some((jump, repetition as f64));
             }

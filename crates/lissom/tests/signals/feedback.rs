@@ -791,11 +791,10 @@ fn moments_and_powers_of_springs_are_fed_back() {
                     [signals]\ngain = \"2*flow.power\"\n";
     for scheme in ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"] {
         let analysis = format!("scheme = \"{scheme}\"\nend = 0.3\nstep = 1e-3\ntolerance = 1e-10");
-        let [twice, once] = [
-            finished(&arm(&format!("{}{repeated}", spring(100.0, 4.0)), &analysis)),
-            finished(&arm(&spring(200.0, 8.0), &analysis)),
-        ];
-        let [twice_angle, once_angle] = [&twice, &once].map(|session| session.value("arm.angle").unwrap());
+        let twice = finished(&arm(&format!("{}{repeated}", spring(100.0, 4.0)), &analysis));
+        let once = finished(&arm(&spring(200.0, 8.0), &analysis));
+        let twice_angle = twice.value("arm.angle").unwrap();
+        let once_angle = once.value("arm.angle").unwrap();
         assert!((twice_angle - once_angle).abs() < 1e-9, "{scheme}: {twice_angle} {once_angle}");
         assert!(
             (twice.value("pull.moment").unwrap() * 2.0 - once.value("pull.moment").unwrap()).abs() < 1e-7
