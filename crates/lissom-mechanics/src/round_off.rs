@@ -9,8 +9,8 @@ pub const SUM: f64 = 4.0 * f64::EPSILON;
 pub const FORCES: f64 = 64.0 * f64::EPSILON;
 /// A stiffness of a system, relative to its terms.
 pub const STIFFNESS: f64 = 256.0 * f64::EPSILON;
-/// Errors of rates of strains and deformations, relative to the displacement of an element's nodes, in element lengths. If an
-/// element moves nearly as a rigid body its relative rates are round-off of the twists of its nodes.
+/// Errors of rates of strains, deformations and violations, relative to the displacement of the nodes of an element or joint, in
+/// element lengths. If these move nearly as a rigid body their relative rates are round-off of the twists of the nodes.
 pub const RIGID_MOTION: f64 = 4096.0 * f64::EPSILON;
 /// Changes of the point of contact, relative to the radius of the wheel.
 pub const CURVATURE_CENTRE: f64 = 1e-15;

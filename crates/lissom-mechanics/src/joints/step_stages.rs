@@ -73,7 +73,7 @@ impl AttachedJoint {
             shares = [1.0 / whole; STAGES];
         }
         // A value below round-off is included in the violations but would be noise in the forces.
-        let known = missed.map(|value| value * above_round_off(value.abs(), round_off::OPERATIONS * way));
+        let known = missed.map(|value| value * above_round_off(value.abs(), round_off::RIGID_MOTION * way));
         let before = SVector::<f64, MAX_EQUATIONS>::from_column_slice(before);
         let violations =
             step.at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
