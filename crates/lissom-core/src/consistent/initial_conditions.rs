@@ -52,9 +52,8 @@ pub struct ConsistentInitialConditions {
     pub(crate) weights: Vec<f64>,
     /// Initial values of joints for the differentiation of constraints.
     starts: JointStarts,
-    /// Positions of the factor that jumps keep, and whether it is the last one.
+    /// Positions of the factor; none if it is not that of all inertias, or served for too long.
     pub(crate) near: Option<Kinematics>,
-    pub(super) is_kept: bool,
 }
 
 impl ConsistentInitialConditions {
@@ -77,7 +76,6 @@ impl ConsistentInitialConditions {
             weights: Vec::new(),
             starts: JointStarts::default(),
             near: None,
-            is_kept: false,
         }
     }
 
@@ -87,16 +85,21 @@ impl ConsistentInitialConditions {
         state: &State,
         inertias: Inertias,
     ) -> Result<(), InitialError> {
-        (self.near, self.is_kept) = (None, false);
-        if self.redundancy.follow(system, &state.kinematics) {
+        let at = &state.kinematics;
+        if inertias == Inertias::All && self.near.as_ref().is_some_and(|near| has_constraints_of(near, at)) {
+            return Ok(());
+        }
+        if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
         }
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
-        system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
+        system.linearize(&self.point(at, &zero), Chart::Body, &mut linearization);
         self.linearization = linearization;
         self.weigh(system, inertias);
-        self.factor_weights(system)
+        self.factor_weights(system)?;
+        self.near = Some(at.clone()).filter(|_| inertias == Inertias::All);
+        Ok(())
     }
 
     /// Assembles the inertia matrix from the linearisation.
@@ -125,6 +128,7 @@ impl ConsistentInitialConditions {
     }
 
     pub(crate) fn factor_weights(&mut self, system: &System) -> Result<(), InitialError> {
+        self.near = None;
         let layout = system.layout();
         let Linearization { gram, constraint, .. } = &self.linearization;
         for (i, value) in self.saddle.matrices.values.iter_mut().enumerate() {
@@ -539,9 +543,7 @@ impl ConsistentInitialConditions {
         }
         let mut difference = vec![0.0; count];
         for sign in [1.0, -1.0] {
-            let moved = moved(state, sign * delay);
-            self.factor(system, &moved, Inertias::All)?;
-            let there = self.acceleration_with_factors(system, &moved)?;
+            let there = self.neighbouring_accelerations(system, &moved(state, sign * delay))?;
             for (value, acceleration) in difference.iter_mut().zip(&there) {
                 *value += 0.5 * sign * acceleration;
             }
@@ -561,6 +563,16 @@ impl ConsistentInitialConditions {
         }
         Ok(now)
     }
+}
+
+/// Whether inertias and constraints of two motions are the same: those of the same positions.
+fn has_constraints_of(one: &Kinematics, other: &Kinematics) -> bool {
+    let frames = |at: &Kinematics| at.nodes.iter().map(|node| node.frame).collect::<Vec<_>>();
+    let values = |at: &Kinematics| at.coordinates.iter().map(|own| own.value).collect::<Vec<_>>();
+    one.time == other.time
+        && one.held == other.held
+        && values(one) == values(other)
+        && frames(one) == frames(other)
 }
 
 /// The motion of a state with accelerations of zero.

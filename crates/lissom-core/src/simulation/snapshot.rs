@@ -242,7 +242,8 @@ impl Simulation {
         self.origin.kinematics = State::from(&from.origin.0).kinematics;
         self.origin.velocity_correction = from.origin.1;
         if let Some(initial) = &mut self.held_values {
-            initial.keep_from(from.near.as_ref().map(|near| State::from(near).kinematics));
+            let near = from.near.as_ref().map(State::from);
+            initial.keep_from(&self.system, near).map_err(|_| SnapshotError::Damaged {})?;
         }
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);
         self.stops.history.clone_from(&from.history);
