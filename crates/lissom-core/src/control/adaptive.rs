@@ -47,8 +47,7 @@ const MAX_DEFECT: f64 = 1e-3;
 const SHORTER: f64 = 0.9;
 /// Largest growth from step to step of the size that the defect allows: the defect of a periodic motion vanishes twice a period.
 const MAX_GROWTH_BY_DEFECT: f64 = 1.5;
-/// Defects below this fraction of the allowed one are not expected to exceed it in the next step, which is at most five times as
-/// long.
+/// Defects below this fraction of the allowed one are not expected to exceed it in the next step.
 const NEGLIGIBLE_DEFECT: f64 = 0.02;
 /// Steps shorter than this fraction of the largest one are not tried [-].
 const SHORTEST: f64 = 1e-12;
@@ -159,8 +158,11 @@ impl Adaptive {
             integrator.correct_dense_start(review.problem);
         }
         // A tangent that remains valid over the step shows that the equations change little within it, unless the last defect was
-        // considerable. A step that is rejected needs no second reason.
-        let is_due = review.attempt.outcome.factorizations > 0 || self.defect > NEGLIGIBLE_DEFECT;
+        // considerable, or is that of a shorter step with drives, which error estimates of free directions do not see. A step that is
+        // rejected needs no second reason.
+        let is_due = review.attempt.outcome.factorizations > 0
+            || self.defect > NEGLIGIBLE_DEFECT
+            || review.attempt.size > self.by_defect && system.has_driven_constraint(end);
         if !(is_due && excess <= 1.0) {
             return excess;
         }
