@@ -28,6 +28,7 @@ mod real;
 mod rotation;
 mod screw;
 mod screw_operators;
+mod slopes;
 mod square;
 mod tangent;
 mod triple;
@@ -49,6 +50,7 @@ pub use screw_operators::{
     CurvedTangent, InverseTangent, TangentOperator, coadjoint_matrix, coadjoint_times, lie_bracket,
     lie_bracket_matrix,
 };
+pub use slopes::Slopes;
 pub use square::Square;
 pub use tangent::{
     ScrewTangent, inverse_tangent, inverse_tangent_derivative, inverse_tangent_derivative_transpose_times,

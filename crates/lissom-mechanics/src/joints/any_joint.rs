@@ -1,10 +1,11 @@
 //! One interface to joints of all kinds.
 
-use lissom_motion::{Motion, Vector6};
-use nalgebra::SVector;
+use lissom_motion::{Motion, Screw, Slopes, Vector6};
+use nalgebra::{RowSVector, SVector};
 
 use super::attached::AttachedJoint;
 use super::blocks::Batches;
+use super::variations::variations;
 use super::{
     Branch, ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_COORDINATES,
     Relative,
@@ -38,7 +39,7 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     fn creep(&self) -> Option<&CreepLaw> {
         None
     }
-    /// See [`Joint::violation`].
+    /// Violation c of the equations, evaluated from absolute positions.
     fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
     /// See [`Joint::violation_change`].
     fn violation_change(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
@@ -49,9 +50,9 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
         own: &JointCoordinates,
         mu: &Equations,
     ) -> (Vector6, SVector<f64, MAX_COORDINATES>);
-    /// See [`Joint::gradient`].
+    /// ∂c/∂(η, φ); `out` is zero on entry.
     fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient);
-    /// See [`Joint::constraint_hessian`].
+    /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
     fn constraint_hessian(
         &self,
         relative: &Relative,
@@ -89,7 +90,14 @@ impl<J: Joint> AnyJoint for J {
     }
 
     fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        Joint::violation(self, relative, own)
+        let (values, start) = Joint::initial(self);
+        let relative = Relative {
+            rotation_change: relative.rotation - start.rotation.matrix(),
+            position_change: relative.position - start.position,
+            ..*relative
+        };
+        let change = std::array::from_fn(|k| own.value[k] - values[k]);
+        AnyJoint::violation_change(self, &relative, &JointCoordinates { change, ..*own })
     }
 
     fn violation_change(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
@@ -107,7 +115,14 @@ impl<J: Joint> AnyJoint for J {
     }
 
     fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        Joint::gradient(self, relative, own, out);
+        let (relative, own, constants) = (relative.into(), own.into(), self.constants());
+        for equation in 0..Joint::equations(self).len() {
+            let mut mu = Equations::default();
+            mu[equation] = 1.0;
+            let (wrench, forces) = J::wrench(&relative, &own, &constants, &mu);
+            out.relative.set_row(equation, &Vector6::from(wrench).transpose());
+            out.own.set_row(equation, &SVector::from(forces).transpose());
+        }
     }
 
     fn constraint_hessian(
@@ -117,7 +132,16 @@ impl<J: Joint> AnyJoint for J {
         mu: &Equations,
         out: &mut ConstraintHessian,
     ) {
-        Joint::constraint_hessian(self, relative, own, mu, out);
+        // As for matrices of inertias and constraints alone.
+        if mu.iter().all(|mu| *mu == 0.0) {
+            return;
+        }
+        let (relative, own) = variations(&relative.into(), &own.into());
+        let (constants, mu) = (self.constants().map(Slopes::constant), mu.map(Slopes::constant));
+        let (Screw { translation: n, rotation: m }, [a, b]) = J::wrench(&relative, &own, &constants, &mu);
+        for (row, entry) in [n.x, n.y, n.z, m.x, m.y, m.z, a, b].into_iter().enumerate() {
+            out.set_row(row, &RowSVector::from(entry.by));
+        }
     }
 
     fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches) {

@@ -7,56 +7,15 @@
 //! ```
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Real, Screw, Triple, Vector3, skew};
+use lissom_motion::{Real, Screw, Triple};
 
 use super::relative_increment::{Axes, RelativeIncrement};
-use super::{ConstraintHessian, Gradient, Relative};
-
-/// Gradient of the position's component along an axis of the base.
-pub(crate) fn component_gradient(relative: &Relative, axis: usize, row: usize, out: &mut Gradient) {
-    for j in 0..3 {
-        out.relative[(row, j)] = relative.rotation[(axis, j)];
-    }
-}
 
 /// Wrench on the tip of a force on its point, given in the base's axes.
 #[inline(always)]
 pub(crate) fn force_wrench<R: Real>(increment: &RelativeIncrement<R>, force: Triple<R>) -> Screw<R> {
     let zero = force.x.like(0.0);
     Screw::new(increment.rotation().transpose_times(force), Triple::new(zero, zero, zero))
-}
-
-/// Hessian of [`force_wrench`]: δ(Rᵀ f) = (Rᵀ f)~ η_θ.
-pub(crate) fn force_hessian(relative: &Relative, force: &Vector3, out: &mut ConstraintHessian) {
-    let turning = skew(&relative.rotation.tr_mul(force));
-    let mut view = out.fixed_view_mut::<3, 3>(0, 3);
-    view += turning;
-}
-
-/// Gradient of `sign` R_ab.
-pub(crate) fn cosine_gradient(
-    relative: &Relative,
-    (a, b): (usize, usize),
-    sign: f64,
-    row: usize,
-    out: &mut Gradient,
-) {
-    let moment = sign * Vector3::ith(b, 1.0).cross(&relative.rotation.row(a).transpose());
-    for j in 0..3 {
-        out.relative[(row, 3 + j)] = moment[j];
-    }
-}
-
-/// Hessian of `factor` R_ab.
-pub(crate) fn cosine_hessian(
-    relative: &Relative,
-    (a, b): (usize, usize),
-    factor: f64,
-    out: &mut ConstraintHessian,
-) {
-    let turned = skew(&relative.rotation.row(a).transpose());
-    let mut view = out.fixed_view_mut::<3, 3>(3, 3);
-    view += factor * skew(&Vector3::ith(b, 1.0)) * turned;
 }
 
 /// Row `a` of a matrix.

@@ -8,14 +8,9 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::kind::{Build, JointKind};
-use super::primitives::{
-    JointRotation, coincident, coincident_change, coincident_gradient, coincident_hessian, coincident_wrench,
-};
+use super::primitives::{JointRotation, coincident_change, coincident_wrench};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    Branch, ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Branch, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::{ParameterError, ParameterType, unitless};
 
@@ -73,13 +68,6 @@ impl Joint for ConstantVelocity {
         ([0.0; MAX_COORDINATES], Motion::new(Rotation::exponential(&(angle * axis)), Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        coincident(relative, 0, &mut out);
-        out[3] = 0.5 * (relative.rotation[(1, 0)] - relative.rotation[(0, 1)]);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -104,23 +92,5 @@ impl Joint for ConstantVelocity {
         let mut wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
         wrench.rotation = wrench.rotation + moment;
         (wrench, own)
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        coincident_gradient(relative, 0, out);
-        let mut all = Gradient::zeros();
-        JointRotation::none(0.0).matches_gradient(relative, 0, &mut all);
-        out.relative.set_row(3, &all.relative.row(2));
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::none(0.0).matches_hessian(relative, &(mu[3] * Vector3::z()), out);
     }
 }

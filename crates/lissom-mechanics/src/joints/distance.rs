@@ -1,14 +1,11 @@
 //! Distance: a massless rod of constant length between two points, c = (x·x - ℓ²) / (2 ℓ).
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::kind::{Build, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::ParameterError;
 
@@ -58,13 +55,6 @@ impl Joint for Distance {
         ([0.0; 2], Motion::new(Rotation::identity(), self.span))
     }
 
-    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
-        let distance = relative.position.norm();
-        let mut out = Equations::default();
-        out[0] = (distance - self.length) * (distance + self.length) / (2.0 * self.length);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -87,28 +77,5 @@ impl Joint for Distance {
         let force = increment.place * (mu[0] * constants[0]);
         let zero = mu[0].like(0.0);
         (Screw::new(force, Triple::new(zero, zero, zero)), [zero; MAX_COORDINATES])
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        let row = relative.rotation.tr_mul(&relative.position) / self.length;
-        out.relative.fixed_view_mut::<1, 3>(0, 0).copy_from(&row.transpose());
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        // δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ
-        let factor = mu[0] / self.length;
-        let turning = factor * skew(&relative.rotation.tr_mul(&relative.position));
-        for i in 0..3 {
-            out[(i, i)] += factor;
-            for j in 0..3 {
-                out[(i, 3 + j)] += turning[(i, j)];
-            }
-        }
     }
 }

@@ -9,17 +9,12 @@
 //! Every rotational equation is an entry of R, with the sign for which it approximates the angle for small rotations.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Real, Screw, Triple, Vector3};
+use lissom_motion::{Real, Screw, Triple};
 
-use super::base_axes::{
-    component_gradient, cosine_gradient, cosine_hessian, force_hessian, force_wrench, row,
-};
+use super::base_axes::{force_wrench, row};
 use super::kind::{Build, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    AnyJoint, ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{AnyJoint, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::{ParameterError, ParameterType, required};
 
@@ -63,22 +58,9 @@ pub struct Generic<const LENGTHS: usize> {
     locked: [bool; 6],
 }
 
-/// An equation of the rotation: `sign` R_ab = 0.
-#[derive(Clone, Copy, Debug)]
-struct Cosine {
-    axes: (usize, usize),
-    sign: f64,
-}
-
 impl<const LENGTHS: usize> Generic<LENGTHS> {
     fn new(locked: [bool; 6]) -> Self {
         Self { locked }
-    }
-
-    /// Axes along which translations are locked.
-    fn translations(self) -> impl Iterator<Item = usize> + use<LENGTHS> {
-        let locked = self.locked;
-        (0..3).filter(move |&axis| locked[axis])
     }
 
     /// The only rotation that is locked, or the only one that is not, with the number of locked ones.
@@ -91,24 +73,6 @@ impl<const LENGTHS: usize> Generic<LENGTHS> {
             _ => None,
         };
         (count, single)
-    }
-
-    /// The equations of the rotation, by ascending axis.
-    fn cosines(self) -> impl Iterator<Item = Cosine> + use<LENGTHS> {
-        let (count, single) = self.rotations();
-        let locked = self.locked;
-        (0..3).filter(move |&axis| locked[3 + axis]).map(move |axis| {
-            let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-            // A small rotation θ: R_(c+2, c+1) = θ_c, R_(c+1, c+2) = -θ_c.
-            let positive = Cosine { axes: (last, next), sign: 1.0 };
-            let negative = Cosine { axes: (next, last), sign: -1.0 };
-            match single {
-                _ if count == 3 => positive,
-                // The column is that of the tip's axis about which it may rotate.
-                Some(free) if count == 2 && free == next => positive,
-                _ => negative,
-            }
-        })
     }
 }
 
@@ -156,16 +120,6 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
             _ => {}
         }
         constants
-    }
-
-    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        let lengths = self.translations().map(|axis| relative.position[axis]);
-        let angles = self.cosines().map(|Cosine { axes, sign }| sign * relative.rotation[axes]);
-        for (value, equation) in out.iter_mut().zip(lengths.chain(angles)) {
-            *value = equation;
-        }
-        out
     }
 
     #[inline(always)]
@@ -222,31 +176,5 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
             .plus_cross(second, row(&rotation, 1))
             .plus_cross(third, row(&rotation, 2));
         (wrench, [zero; MAX_COORDINATES])
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        for (row, axis) in self.translations().enumerate() {
-            component_gradient(relative, axis, row, out);
-        }
-        for (row, Cosine { axes, sign }) in self.cosines().enumerate() {
-            cosine_gradient(relative, axes, sign, LENGTHS + row, out);
-        }
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        let mut force = Vector3::zeros();
-        for (row, axis) in self.translations().enumerate() {
-            force[axis] = mu[row];
-        }
-        force_hessian(relative, &force, out);
-        for (row, Cosine { axes, sign }) in self.cosines().enumerate() {
-            cosine_hessian(relative, axes, sign * mu[LENGTHS + row], out);
-        }
     }
 }

@@ -7,12 +7,9 @@
 
 use lissom_motion::{Motion, Real, Screw};
 
-use super::primitives::{JointRotation, on_third_axis};
+use super::primitives::JointRotation;
 use super::relative_increment::{Angle, CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 
 /// Names of the equations.
 pub(super) const EQUATIONS: [&str; 6] =
@@ -45,13 +42,6 @@ impl<J: Held> Joint for J {
         Held::initial(self)
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        on_third_axis(relative, J::SLIDE.map_or(0.0, |slide| own.value[slide]), 0, &mut out);
-        J::rotation(0.0, |k| own.angle(k)).matches(relative, 3, &mut out);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -77,22 +67,5 @@ impl<J: Held> Joint for J {
             own[slide] = -mu[2];
         }
         (wrench, own)
-    }
-
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        if let Some(slide) = J::SLIDE {
-            out.own[(2, slide)] = -1.0;
-        }
-        J::rotation(0.0, |k| own.angle(k)).held_gradient(relative, out);
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        J::rotation(0.0, |k| own.angle(k)).held_hessian(relative, mu, out);
     }
 }

@@ -56,6 +56,7 @@ pub mod step_stages;
 pub mod swing_arm;
 pub mod telescopic_rod;
 pub mod universal;
+mod variations;
 pub mod wheel_on_rail;
 
 pub use any_joint::AnyJoint;
@@ -196,7 +197,7 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
         [0.0; MAX_CONSTANTS]
     }
 
-    /// Initial coordinates, and the relative motion for which they satisfy the equations.
+    /// Initial coordinates, and the relative motion for which they satisfy the equations: violations are changes since then.
     fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         ([0.0; MAX_COORDINATES], Motion::identity())
     }
@@ -211,9 +212,6 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn contact(&self) -> Option<Contact> {
         None
     }
-
-    /// Violation c of the equations, evaluated from absolute positions.
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
 
     /// Change of the violation since the start of the step, from the changes of `increment` and `own`, without
     /// cancellation. Called often: inlined always.
@@ -231,16 +229,4 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
         constants: &[R; MAX_CONSTANTS],
         mu: &[R; MAX_EQUATIONS],
     ) -> (Screw<R>, [R; MAX_COORDINATES]);
-
-    /// ∂c/∂(η, φ); `out` is zero on entry.
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient);
-
-    /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    );
 }

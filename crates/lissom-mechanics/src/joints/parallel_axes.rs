@@ -8,10 +8,7 @@ use super::held::EQUATIONS;
 use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
-    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, RATE_AT_START};
 
@@ -45,12 +42,6 @@ impl Joint for ParallelAxes {
         ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 0, &mut out);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -73,20 +64,5 @@ impl Joint for ParallelAxes {
         let rotation = JointRotation::about_third_axis(&own.angles[0]);
         let (moment, own) = rotation.matches_moments(increment, Triple::new(mu[0], mu[1], mu[2]));
         (Screw::new(Triple::new(zero, zero, zero), moment), own)
-    }
-
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 0, out);
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        let mu = Vector3::new(mu[0], mu[1], mu[2]);
-        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(relative, &mu, out);
     }
 }

@@ -4,14 +4,11 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
-use super::base_axes::{component_gradient, force_hessian, force_wrench};
+use super::base_axes::force_wrench;
 use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
-    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, RATE_AT_START};
 
@@ -45,13 +42,6 @@ impl Joint for Planar {
         ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        out[0] = relative.position.z;
-        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 1, &mut out);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -76,22 +66,5 @@ impl Joint for Planar {
         let mut wrench = force_wrench(increment, Triple::new(zero, zero, mu[0]));
         wrench.rotation = wrench.rotation + moment;
         (wrench, own)
-    }
-
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        component_gradient(relative, 2, 0, out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 1, out);
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        force_hessian(relative, &(mu[0] * Vector3::z()), out);
-        let mu = Vector3::new(mu[1], mu[2], mu[3]);
-        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(relative, &mu, out);
     }
 }

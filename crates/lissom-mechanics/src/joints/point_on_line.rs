@@ -4,14 +4,11 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
-use super::base_axes::{component_gradient, force_hessian, force_wrench};
+use super::base_axes::force_wrench;
 use super::kind::{Build, JointKind};
 use super::primitives::POINT_EQUATIONS;
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
-    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::{DISPLACEMENT_AT_START, VELOCITY_AT_START};
 
@@ -47,12 +44,6 @@ impl Joint for PointOnLine {
         ([self.displacement, 0.0], place)
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        out[..3].copy_from_slice((relative.position - own.value[0] * Vector3::z()).as_slice());
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -72,22 +63,5 @@ impl Joint for PointOnLine {
         mu: &[R; MAX_EQUATIONS],
     ) -> (Screw<R>, [R; MAX_COORDINATES]) {
         (force_wrench(increment, Triple::new(mu[0], mu[1], mu[2])), [-mu[2], mu[2].like(0.0)])
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        for axis in 0..3 {
-            component_gradient(relative, axis, axis, out);
-        }
-        out.own[(2, 0)] = -1.0;
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        force_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
     }
 }

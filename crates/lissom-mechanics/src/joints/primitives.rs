@@ -4,64 +4,30 @@
 //!
 //! ```text
 //! E = QᵀR,   c = axial(E),   δE = E ρ̃,   ρ = η_θ - Eᵀ S δφ,   S = axis vectors of Qᵀ ∂Q/∂φ
-//! ∂c/∂ρ = N = ½ (tr E I - Eᵀ),   m = Nᵀ μ = ½ (tr E μ - E μ),   ∂m/∂ρ = ½ E μ̃ - μ axial(E)ᵀ
+//! ∂c/∂ρ = N = ½ (tr E I - Eᵀ),   m = Nᵀ μ = ½ (tr E μ - E μ)
 //! ```
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Matrix3, Real, Screw, Triple, Vector3, axial, skew};
+use lissom_motion::{Matrix3, Real, Screw, Triple};
 
+use super::MAX_COORDINATES;
 use super::relative_increment::{Angle, Axes, RelativeIncrement};
-use super::{ConstraintHessian, Equations, Gradient, MAX_COORDINATES, Relative};
 
 /// Names of the three equations of coincident points.
 pub(crate) const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
 
-/// Rows `row..row + 3`: the tip's point coincides with the base's point, c = Rᵀ x in the tip's axes. In these axes
-/// the gradient of a tip that rotates about a point of the ground is constant.
-pub(crate) fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
-    out[row..row + 3].copy_from_slice(relative.rotation.tr_mul(&relative.position).as_slice());
-}
-
-/// Change of [`coincident`] since the start of the step.
+/// Change of c = Rᵀ x, that the tip's point coincides with the base's in the tip's axes, since the start of the step. In these axes the
+/// gradient of a tip that rotates about a point of the ground is constant.
 #[inline(always)]
 pub(crate) fn coincident_change<R: Real>(increment: &RelativeIncrement<R>) -> [R; 3] {
     let Triple { x, y, z } = increment.place_change;
     [x, y, z]
 }
 
-/// Gradient of [`coincident`]: δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ.
-pub(crate) fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) {
-    let turning = skew(&relative.rotation.tr_mul(&relative.position));
-    for i in 0..3 {
-        out.relative[(row + i, i)] = 1.0;
-        for j in 0..3 {
-            out.relative[(row + i, 3 + j)] = turning[(i, j)];
-        }
-    }
-}
-
-/// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which is at -Rᵀ x from the tip's.
+/// Its (∂c/∂η)ᵀ μ: the force μ at the base's point, which is at -Rᵀ x from the tip's.
 #[inline(always)]
 pub(crate) fn coincident_wrench<R: Real>(increment: &RelativeIncrement<R>, mu: Triple<R>) -> Screw<R> {
     Screw::new(mu, mu.cross(increment.place))
-}
-
-/// Hessian of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
-pub(crate) fn coincident_hessian(relative: &Relative, mu: &Vector3, out: &mut ConstraintHessian) {
-    let mu = skew(mu);
-    let turning = mu * skew(&relative.rotation.tr_mul(&relative.position));
-    let mut view = out.fixed_view_mut::<3, 3>(3, 0);
-    view += mu;
-    let mut view = out.fixed_view_mut::<3, 3>(3, 3);
-    view += turning;
-}
-
-/// Rows `row..row + 3`: the tip's point is on the base's third axis at the displacement d, c = Rᵀ x - d e₃. This is
-/// [`coincident`] except for a constant gradient with respect to d, so that gradient and Hessian by the relative motion
-/// are the same. The axes of base and tip agree, by other rows.
-pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
-    coincident(relative, row, out);
-    out[row + 2] -= displacement;
 }
 
 /// A joint's own rotation Q(φ) and its derivatives.
@@ -73,8 +39,6 @@ pub(crate) struct JointRotation<R> {
     pub change: Axes<R>,
     /// Axis vectors of Qᵀ ∂Q/∂φ_k, one per coordinate.
     pub axes: [Triple<R>; MAX_COORDINATES],
-    /// ∂axes[k]/∂φ_j, at `[k][j]`.
-    pub axes_by: [[Triple<R>; MAX_COORDINATES]; MAX_COORDINATES],
     /// Number of coordinates.
     pub count: usize,
 }
@@ -93,7 +57,6 @@ impl<R: Real> JointRotation<R> {
             ]),
             change: Axes([nothing; 3]),
             axes: [nothing; 2],
-            axes_by: [[nothing; 2]; 2],
             count: 0,
         }
     }
@@ -103,7 +66,7 @@ impl<R: Real> JointRotation<R> {
     pub(crate) fn about_third_axis(angle: &Angle<R>) -> Self {
         let none = Self::none(angle.sine);
         let (rotation, change) = elementary_of(2, angle);
-        Self { rotation, change, axes: [none.rotation.0[2], none.axes[1]], count: 1, ..none }
+        Self { rotation, change, axes: [none.rotation.0[2], none.axes[1]], count: 1 }
     }
 
     /// Rotation about the first axis, then about the rotated second axis.
@@ -119,13 +82,11 @@ impl<R: Real> JointRotation<R> {
             // P Q - P₀ Q₀ = ΔP Q + P₀ ΔQ
             change: first_change.product(second).plus(first.minus(first_change).product(second_change)),
             axes: [seen, e_2],
-            // ∂/∂b (Qᵀ e₁) = - e₂ × (Qᵀ e₁)
-            axes_by: [[none.axes[0], seen.cross(e_2)], [none.axes[0]; 2]],
             count: 2,
         }
     }
 
-    /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
+    /// Change of c = axial(QᵀR), that the relative rotation is Q: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
     #[inline(always)]
     pub(crate) fn matches_change(&self, increment: &RelativeIncrement<R>) -> [R; 3] {
         let change = self
@@ -136,7 +97,7 @@ impl<R: Real> JointRotation<R> {
         [x, y, z]
     }
 
-    /// (∂c/∂(η, φ))ᵀ μ of [`Self::matches`]: the moment m, and -Sᵀ E m on the coordinates.
+    /// Its (∂c/∂(η, φ))ᵀ μ: the moment m, and -Sᵀ E m on the coordinates.
     #[inline(always)]
     pub(crate) fn matches_moments(
         &self,
@@ -174,67 +135,6 @@ impl<R: Real> JointRotation<R> {
         let mut wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
         wrench.rotation = wrench.rotation + moment;
         (wrench, own)
-    }
-}
-
-impl JointRotation<f64> {
-    fn error(&self, relative: &Relative) -> Matrix3 {
-        Matrix3::from(self.rotation).tr_mul(&relative.rotation)
-    }
-
-    /// Gradient of a joint that locks a point and this rotation.
-    pub(crate) fn held_gradient(&self, relative: &Relative, out: &mut Gradient) {
-        coincident_gradient(relative, 0, out);
-        self.matches_gradient(relative, 3, out);
-    }
-
-    /// Its Hessian.
-    pub(crate) fn held_hessian(&self, relative: &Relative, mu: &Equations, out: &mut ConstraintHessian) {
-        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        self.matches_hessian(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
-    }
-
-    fn axis(&self, coordinate: usize) -> Vector3 {
-        self.axes[coordinate].into()
-    }
-
-    /// Rows `row..row + 3`: the relative rotation is Q.
-    pub(crate) fn matches(&self, relative: &Relative, row: usize, out: &mut Equations) {
-        out[row..row + 3].copy_from_slice(axial(&self.error(relative)).as_slice());
-    }
-
-    /// Gradient of [`Self::matches`].
-    pub(crate) fn matches_gradient(&self, relative: &Relative, row: usize, out: &mut Gradient) {
-        let e = self.error(relative);
-        let n = 0.5 * (Matrix3::identity() * e.trace() - e.transpose());
-        out.relative.fixed_view_mut::<3, 3>(row, 3).copy_from(&n);
-        for k in 0..self.count {
-            let column = -n * e.tr_mul(&self.axis(k));
-            out.own.fixed_view_mut::<3, 1>(row, k).copy_from(&column);
-        }
-    }
-
-    /// Hessian of [`Self::matches`].
-    pub(crate) fn matches_hessian(&self, relative: &Relative, mu: &Vector3, out: &mut ConstraintHessian) {
-        let e = self.error(relative);
-        let m = 0.5 * (e.trace() * mu - e * mu);
-        let dm = 0.5 * e * skew(mu) - mu * axial(&e).transpose();
-        let mut view = out.fixed_view_mut::<3, 3>(3, 3);
-        view += dm;
-        for k in 0..self.count {
-            let axis = e.tr_mul(&self.axis(k));
-            // The derivative of the moment -Sᵀ E m on φ_k with respect to ρ is Sᵀ E (m̃ - ∂m/∂ρ).
-            let by_rho = axis.transpose() * (skew(&m) - dm);
-            let column = dm * axis;
-            for i in 0..3 {
-                out[(3 + i, 6 + k)] -= column[i];
-                out[(6 + k, 3 + i)] += by_rho[i];
-            }
-            for j in 0..self.count {
-                out[(6 + k, 6 + j)] -= by_rho.dot(&e.tr_mul(&self.axis(j)).transpose());
-                out[(6 + k, 6 + j)] -= Vector3::from(self.axes_by[k][j]).dot(&(e * m));
-            }
-        }
     }
 }
 

@@ -12,15 +12,12 @@
 //! [`super::contact`] and `elements::rolling`.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::base_axes::row;
 use super::kind::{Build, Geometry, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::ParameterType::{NotNegative, Positive};
 use crate::registry::{ParameterError, ParameterType, Parameters, optional, required, unitless};
@@ -148,15 +145,6 @@ impl Joint for Rolling {
         ([0.0; MAX_COORDINATES], Motion::new(Rotation::identity(), self.centre))
     }
 
-    /// Relative to the start, where the wheel touches to the accuracy of the given positions.
-    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
-        let Contact { axis, side, radius, .. } = self.contact;
-        let cosine = relative.rotation.row(2).transpose().dot(&axis);
-        let mut out = Equations::default();
-        out[0] = side * (relative.position.z - self.centre.z) - radius * (upright(cosine) - upright(axis.z));
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -188,38 +176,5 @@ impl Joint for Rolling {
         let lever = mu[0] * radius * cosine / upright(cosine);
         let zero = mu[0].like(0.0);
         (Screw::new(normal * (side * mu[0]), axis.cross(normal) * lever), [zero; MAX_COORDINATES])
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        let Contact { axis, side, radius, .. } = self.contact;
-        let normal = relative.rotation.row(2).transpose();
-        let cosine = normal.dot(&axis);
-        let moment = radius * cosine / upright(cosine) * axis.cross(&normal);
-        for j in 0..3 {
-            out.relative[(0, j)] = side * normal[j];
-            out.relative[(0, 3 + j)] = moment[j];
-        }
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        let Contact { axis, side, radius, .. } = self.contact;
-        let normal = relative.rotation.row(2).transpose();
-        let cosine = normal.dot(&axis);
-        let upright = upright(cosine);
-        let turned = skew(&normal);
-        // d(u/S)/du = 1/S³, apart from the round-off that keeps S from vanishing.
-        let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
-        let tilting = slope * axis.cross(&normal) * (axis.transpose() * turned)
-            + cosine / upright * skew(&axis) * turned;
-        let mut force = out.fixed_view_mut::<3, 3>(0, 3);
-        force += side * mu[0] * turned;
-        let mut moment = out.fixed_view_mut::<3, 3>(3, 3);
-        moment += mu[0] * radius * tilting;
     }
 }

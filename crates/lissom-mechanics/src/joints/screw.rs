@@ -8,12 +8,9 @@ use lissom_motion::{Motion, Real, Rotation, Screw as Wrench, Vector3};
 
 use super::held::EQUATIONS;
 use super::kind::{Build, JointKind};
-use super::primitives::{JointRotation, elementary, on_third_axis};
+use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::ParameterType::Number;
 use crate::registry::{ANGLE_AT_START, RATE_AT_START, required};
@@ -66,13 +63,6 @@ impl Joint for Screw {
         ([self.angle, 0.0], Motion::new(rotation, self.pitch * self.angle * Vector3::z()))
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        on_third_axis(relative, self.pitch * own.value[0], 0, &mut out);
-        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -94,20 +84,5 @@ impl Joint for Screw {
         let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(increment, mu);
         own[0] = own[0].minus_product(constants[0], mu[2]);
         (wrench, own)
-    }
-
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        out.own[(2, 0)] = -self.pitch;
-        JointRotation::about_third_axis(&own.angle(0)).held_gradient(relative, out);
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        JointRotation::about_third_axis(&own.angle(0)).held_hessian(relative, mu, out);
     }
 }

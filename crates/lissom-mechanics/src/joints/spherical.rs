@@ -1,18 +1,12 @@
 //! Spherical joint: two nodes share a point and rotate freely about it.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Real, Screw, Triple, Vector3};
+use lissom_motion::{Real, Screw, Triple};
 
 use super::kind::{Build, JointKind};
-use super::primitives::{
-    POINT_EQUATIONS, coincident, coincident_change, coincident_gradient, coincident_hessian,
-    coincident_wrench,
-};
+use super::primitives::{POINT_EQUATIONS, coincident_change, coincident_wrench};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 
 /// Registry entry.
@@ -36,12 +30,6 @@ impl Joint for Spherical {
         &POINT_EQUATIONS
     }
 
-    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
-        let mut out = Equations::default();
-        coincident(relative, 0, &mut out);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -62,19 +50,5 @@ impl Joint for Spherical {
     ) -> (Screw<R>, [R; MAX_COORDINATES]) {
         let wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
         (wrench, [mu[0].like(0.0); MAX_COORDINATES])
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        coincident_gradient(relative, 0, out);
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
     }
 }

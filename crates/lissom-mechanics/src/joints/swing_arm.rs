@@ -2,15 +2,12 @@
 //! link is an algebraic coordinate: x = Q(φ) a, with Q the rotation about the hinge's axis.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::kind::{Build, JointKind};
 use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
-    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::ParameterType::Number;
 use crate::registry::{ParameterError, optional};
@@ -43,19 +40,6 @@ pub struct SwingArm {
     equations: usize,
 }
 
-impl SwingArm {
-    /// Multipliers as a vector, zero for missing equations.
-    fn forces(&self, mu: &Equations) -> Vector3 {
-        Vector3::new(mu[0], mu[1], if self.equations == 3 { mu[2] } else { 0.0 })
-    }
-
-    fn rows(&self, vector: &Vector3) -> Equations {
-        let mut out = Equations::default();
-        out[..self.equations].copy_from_slice(&vector.as_slice()[..self.equations]);
-        out
-    }
-}
-
 impl Joint for SwingArm {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
     const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 0 };
@@ -75,10 +59,6 @@ impl Joint for SwingArm {
     fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let span = elementary(2, self.angle) * self.arm;
         ([self.angle, 0.0], Motion::new(Rotation::identity(), span))
-    }
-
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        self.rows(&(relative.position - elementary(2, own.value[0]) * self.arm))
     }
 
     #[inline(always)]
@@ -108,30 +88,5 @@ impl Joint for SwingArm {
         let swing = arm.y * force.x - arm.x * force.y;
         let wrench = Screw::new(increment.rotation().transpose_times(force), Triple::new(zero, zero, zero));
         (wrench, [swing, zero])
-    }
-
-    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
-        let swing = Vector3::z().cross(&(elementary(2, own.value[0]) * self.arm));
-        for i in 0..self.equations {
-            for j in 0..3 {
-                out.relative[(i, j)] = relative.rotation[(i, j)];
-            }
-            out.own[(i, 0)] = -swing[i];
-        }
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        own: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        let force = self.forces(mu);
-        let turning = skew(&relative.rotation.tr_mul(&force));
-        let mut view = out.fixed_view_mut::<3, 3>(0, 3);
-        view += turning;
-        let arm = elementary(2, own.value[0]) * self.arm;
-        out[(6, 6)] -= force.dot(&Vector3::z().cross(&Vector3::z().cross(&arm)));
     }
 }

@@ -2,14 +2,11 @@
 //! coordinate, so that drives, springs, stops, friction, latches and forces may act on it. Its multiplier is the tension.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Matrix3, Motion, Real, Rotation, Screw, Triple, Vector3, skew};
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::kind::{Build, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{
-    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
-    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
-};
+use super::{Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
 use crate::registry::{DISPLACEMENT_AT_START, ParameterError, VELOCITY_AT_START};
 
@@ -52,13 +49,6 @@ impl Joint for TelescopicRod {
         ([self.displacement, 0.0], Motion::new(Rotation::identity(), self.span))
     }
 
-    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
-        let elongation = relative.position.norm() - self.span.norm();
-        let mut out = Equations::default();
-        out[0] = elongation - (own.value[0] - self.displacement);
-        out
-    }
-
     #[inline(always)]
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
@@ -85,32 +75,5 @@ impl Joint for TelescopicRod {
         let force = place * (mu[0] / place.dot(place).square_root());
         let zero = mu[0].like(0.0);
         (Screw::new(force, Triple::new(zero, zero, zero)), [-mu[0], zero])
-    }
-
-    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
-        let row = relative.rotation.tr_mul(&relative.position.normalize());
-        out.relative.fixed_view_mut::<1, 3>(0, 0).copy_from(&row.transpose());
-        out.own[(0, 0)] = -1.0;
-    }
-
-    fn constraint_hessian(
-        &self,
-        relative: &Relative,
-        _: &JointCoordinates,
-        mu: &Equations,
-        out: &mut ConstraintHessian,
-    ) {
-        // δ(P/|P|) = (1 - u uᵀ)/|P| δP,      P = Rᵀ x,      δP = η_u + P~ η_θ
-        let place = relative.rotation.tr_mul(&relative.position);
-        let length = place.norm();
-        let direction = place / length;
-        let across = (Matrix3::identity() - direction * direction.transpose()) * (mu[0] / length);
-        let turning = across * skew(&place);
-        for i in 0..3 {
-            for j in 0..3 {
-                out[(i, j)] += across[(i, j)];
-                out[(i, 3 + j)] += turning[(i, j)];
-            }
-        }
     }
 }

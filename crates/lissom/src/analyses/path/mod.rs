@@ -37,7 +37,7 @@ const MAX_STEPS_TO_LOADS: usize = 1000;
 
 /// If the path to the loads ends or has a critical point below this fraction of them, the model has no stiffness
 /// initially.
-const UNRESISTED: f64 = 1e-3;
+const UNRESISTED: f64 = 1e-2;
 
 /// Why a path has no start.
 #[derive(Debug, thiserror::Error)]
