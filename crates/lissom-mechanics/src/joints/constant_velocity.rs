@@ -3,14 +3,12 @@
 //!
 //! With the input rotated by α, the output by β, and the tip's shaft bent by θ about any perpendicular axis, R_21 -
 //! R_12 = (1 + cos θ) sin(β - α): the equation is satisfied with β = α up to θ = π.
-#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
+use lissom_motion::{Rotation, Vector3};
 
+use super::Branch;
 use super::kind::{Build, JointKind};
-use super::primitives::{JointRotation, coincident_change, coincident_wrench};
-use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
-use super::{Branch, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
+use super::product::{Product, Turn};
 use crate::ports::Ports;
 use crate::registry::{ParameterError, ParameterType, unitless};
 
@@ -48,49 +46,19 @@ pub struct ConstantVelocity {
     tip: Vector3,
 }
 
-impl Joint for ConstantVelocity {
-    const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 1 };
+impl Product for ConstantVelocity {
+    const TURN: Turn = Turn::Shafts;
 
-    fn equations(&self) -> &'static [&'static str] {
-        &["position 1", "position 2", "position 3", "rotation 3"]
+    /// The tip's third axis is its shaft, rotated from the base's about their common normal.
+    fn start(&self) -> Rotation {
+        let across = Vector3::z().cross(&self.tip);
+        let angle = across.norm().atan2(self.tip.z);
+        let axis = across.try_normalize(0.0).unwrap_or_else(Vector3::x);
+        Rotation::exponential(&(angle * axis))
     }
 
     /// R_11 + R_22 = (1 + cos θ) cos(β - α): the equation is also satisfied with β = α + π.
     fn branch(&self) -> Option<Branch> {
         Some(|relative| relative.rotation[(0, 0)] + relative.rotation[(1, 1)])
-    }
-
-    /// The tip's third axis is its shaft, rotated from the base's about their common normal.
-    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
-        let across = Vector3::z().cross(&self.tip);
-        let angle = across.norm().atan2(self.tip.z);
-        let axis = across.try_normalize(0.0).unwrap_or_else(Vector3::x);
-        ([0.0; MAX_COORDINATES], Motion::new(Rotation::exponential(&(angle * axis)), Vector3::zeros()))
-    }
-
-    #[inline(always)]
-    fn violation_change<R: Real>(
-        increment: &RelativeIncrement<R>,
-        _: &CoordinateIncrement<R>,
-        _: &[R; MAX_CONSTANTS],
-    ) -> [R; MAX_EQUATIONS] {
-        let [a, b, c] = coincident_change(increment);
-        let zero = a.like(0.0);
-        [a, b, c, increment.rotation_change.axial().z, zero, zero]
-    }
-
-    #[inline(always)]
-    fn wrench<R: Real>(
-        increment: &RelativeIncrement<R>,
-        _: &CoordinateIncrement<R>,
-        _: &[R; MAX_CONSTANTS],
-        mu: &[R; MAX_EQUATIONS],
-    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
-        let zero = mu[0].like(0.0);
-        let shaft = Triple::new(zero, zero, mu[3]);
-        let (moment, own) = JointRotation::none(zero).matches_moments(increment, shaft);
-        let mut wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
-        wrench.rotation = wrench.rotation + moment;
-        (wrench, own)
     }
 }

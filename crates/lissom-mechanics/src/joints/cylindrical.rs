@@ -1,13 +1,8 @@
 //! Cylindrical joint: the tip slides along an axis of the base and rotates about it. Rotation and displacement are
 //! algebraic coordinates: x = d e₃ in the joint frame, R = Q(φ).
-#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Vector3};
-
-use super::held::Held;
 use super::kind::{Build, JointKind};
-use super::primitives::{JointRotation, elementary};
-use super::relative_increment::Angle;
+use super::product::{Product, Turn};
 use super::{Coordinate, MAX_COORDINATES};
 use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START, RATE_AT_START, VELOCITY_AT_START};
@@ -36,18 +31,13 @@ pub struct Cylindrical {
     displacement: f64,
 }
 
-impl Held for Cylindrical {
+impl Product for Cylindrical {
     const COORDINATES: &'static [Coordinate] =
         &[Coordinate::rotation("angle"), Coordinate::displacement("displacement")];
+    const TURN: Turn = Turn::AboutThirdAxis;
     const SLIDE: Option<usize> = Some(1);
 
-    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
-        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
-        ([self.angle, self.displacement], Motion::new(rotation, self.displacement * Vector3::z()))
-    }
-
-    #[inline(always)]
-    fn rotation<R: Real>(_: R, angle: impl Fn(usize) -> Angle<R>) -> JointRotation<R> {
-        JointRotation::about_third_axis(&angle(0))
+    fn values(&self) -> [f64; MAX_COORDINATES] {
+        [self.angle, self.displacement]
     }
 }

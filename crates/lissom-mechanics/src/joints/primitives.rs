@@ -1,6 +1,4 @@
-//! Formulas that joints share: coincident points and matching rotations.
-//!
-//! Rotations: with the joint's rotation Q(φ) and the relative rotation R,
+//! Matching rotations, a formula that joints share: with the joint's rotation Q(φ) and the relative rotation R,
 //!
 //! ```text
 //! E = QᵀR,   c = axial(E),   δE = E ρ̃,   ρ = η_θ - Eᵀ S δφ,   S = axis vectors of Qᵀ ∂Q/∂φ
@@ -8,27 +6,10 @@
 //! ```
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Matrix3, Real, Screw, Triple};
+use lissom_motion::{Matrix3, Real, Triple};
 
 use super::MAX_COORDINATES;
 use super::relative_increment::{Angle, Axes, RelativeIncrement};
-
-/// Names of the three equations of coincident points.
-pub(crate) const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
-
-/// Change of c = Rᵀ x, that the tip's point coincides with the base's in the tip's axes, since the start of the step. In these axes the
-/// gradient of a tip that rotates about a point of the ground is constant.
-#[inline(always)]
-pub(crate) fn coincident_change<R: Real>(increment: &RelativeIncrement<R>) -> [R; 3] {
-    let Triple { x, y, z } = increment.place_change;
-    [x, y, z]
-}
-
-/// Its (∂c/∂η)ᵀ μ: the force μ at the base's point, which is at -Rᵀ x from the tip's.
-#[inline(always)]
-pub(crate) fn coincident_wrench<R: Real>(increment: &RelativeIncrement<R>, mu: Triple<R>) -> Screw<R> {
-    Screw::new(mu, mu.cross(increment.place))
-}
 
 /// A joint's own rotation Q(φ) and its derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -112,29 +93,6 @@ impl<R: Real> JointRotation<R> {
             own[k] = -self.axes[k].dot(turned);
         }
         (m, own)
-    }
-
-    /// Change of the violations of a joint that locks a point and this rotation: [`coincident_change`] and
-    /// [`Self::matches_change`].
-    #[inline(always)]
-    pub(crate) fn held_change(&self, increment: &RelativeIncrement<R>) -> [R; 6] {
-        let [a, b, c] = coincident_change(increment);
-        let [d, e, f] = self.matches_change(increment);
-        [a, b, c, d, e, f]
-    }
-
-    /// Wrench on the tip of a joint that locks a point and this rotation, and forces on the coordinates:
-    /// [`coincident_wrench`] and [`Self::matches_moments`].
-    #[inline(always)]
-    pub(crate) fn held_wrench(
-        &self,
-        increment: &RelativeIncrement<R>,
-        mu: &[R; 6],
-    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
-        let (moment, own) = self.matches_moments(increment, Triple::new(mu[3], mu[4], mu[5]));
-        let mut wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
-        wrench.rotation = wrench.rotation + moment;
-        (wrench, own)
     }
 }
 

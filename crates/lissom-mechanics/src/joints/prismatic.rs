@@ -1,13 +1,8 @@
 //! Prismatic joint: the tip slides along an axis of the base without relative rotation. The displacement along the
 //! axis is an algebraic coordinate: x = d e₃ in the joint frame, R = I.
-#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Vector3};
-
-use super::held::Held;
 use super::kind::{Build, JointKind};
-use super::primitives::JointRotation;
-use super::relative_increment::Angle;
+use super::product::Product;
 use super::{Coordinate, MAX_COORDINATES};
 use crate::ports::Ports;
 use crate::registry::{DISPLACEMENT_AT_START, VELOCITY_AT_START};
@@ -31,17 +26,11 @@ pub struct Prismatic {
     displacement: f64,
 }
 
-impl Held for Prismatic {
+impl Product for Prismatic {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::displacement("displacement")];
     const SLIDE: Option<usize> = Some(0);
 
-    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
-        let place = Motion::new(Rotation::identity(), self.displacement * Vector3::z());
-        ([self.displacement, 0.0], place)
-    }
-
-    #[inline(always)]
-    fn rotation<R: Real>(kind: R, _: impl Fn(usize) -> Angle<R>) -> JointRotation<R> {
-        JointRotation::none(kind)
+    fn values(&self) -> [f64; MAX_COORDINATES] {
+        [self.displacement, 0.0]
     }
 }

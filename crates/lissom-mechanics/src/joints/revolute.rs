@@ -1,13 +1,8 @@
 //! Revolute joint: two nodes share a point and an axis; the relative rotation about the axis is an algebraic
 //! coordinate, which springs, drives and outputs can use.
-#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Real, Rotation, Vector3};
-
-use super::held::Held;
 use super::kind::{Build, JointKind};
-use super::primitives::{JointRotation, elementary};
-use super::relative_increment::Angle;
+use super::product::{Product, Turn};
 use super::{Coordinate, MAX_COORDINATES};
 use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, RATE_AT_START};
@@ -29,16 +24,11 @@ pub struct Revolute {
     angle: f64,
 }
 
-impl Held for Revolute {
+impl Product for Revolute {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+    const TURN: Turn = Turn::AboutThirdAxis;
 
-    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
-        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
-        ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
-    }
-
-    #[inline(always)]
-    fn rotation<R: Real>(_: R, angle: impl Fn(usize) -> Angle<R>) -> JointRotation<R> {
-        JointRotation::about_third_axis(&angle(0))
+    fn values(&self) -> [f64; MAX_COORDINATES] {
+        [self.angle, 0.0]
     }
 }

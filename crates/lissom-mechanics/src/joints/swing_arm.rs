@@ -5,7 +5,7 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::kind::{Build, JointKind};
-use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
+use super::primitives::{elementary, elementary_of};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::ports::Ports;
@@ -45,7 +45,7 @@ impl Joint for SwingArm {
     const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 0 };
 
     fn equations(&self) -> &'static [&'static str] {
-        &POINT_EQUATIONS[..self.equations]
+        &["position 1", "position 2", "position 3"][..self.equations]
     }
 
     /// The vector of the link, and 1 if there is a third equation.
