@@ -1,9 +1,8 @@
-//! Formulas in the base's axes: components of the relative position, and entries of the relative rotation, which are
-//! the cosines between an axis of the base and one of the tip.
+//! Formulas in the base's axes: forces on the tip's point, and entries of the relative rotation, which are the cosines between an axis
+//! of the base and one of the tip.
 //!
 //! ```text
-//! x:      δx = R η_u,                    wrench of the force f in the base's axes: (Rᵀ f, 0)
-//! R_ab:   δR_ab = (e_b × Rᵀ e_a)·η_θ,    Hessian of q R_ab: q ẽ_b (Rᵀ e_a)~
+//! δx = R η_u,      wrench of the force f in the base's axes: (Rᵀ f, 0)
 //! ```
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 

@@ -4,6 +4,7 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
+use super::base_axes::force_wrench;
 use super::kind::{Build, JointKind};
 use super::primitives::{elementary, elementary_of};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
@@ -86,7 +87,6 @@ impl Joint for SwingArm {
         let arm = rotation.times(Triple::new(constants[0], constants[1], constants[2]));
         let zero = mu[0].like(0.0);
         let swing = arm.y * force.x - arm.x * force.y;
-        let wrench = Screw::new(increment.rotation().transpose_times(force), Triple::new(zero, zero, zero));
-        (wrench, [swing, zero])
+        (force_wrench(increment, force), [swing, zero])
     }
 }
