@@ -1,14 +1,13 @@
 //! Springs and dampers on a joint's relative rotation or displacement: moment or force k (φ - φ₀) + c φ̇, or
 //! another law of φ - φ₀ and φ̇.
 
+use super::Unknowns;
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, PRELOAD_FORCE, PRELOAD_MOMENT, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns};
-use crate::evaluation::switch_states::SwitchStates;
-use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
-use crate::law::VisitLaw;
+use super::over_measure::{Measure, OverMeasure};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::ports::Ports;
 use crate::registry::ParameterType::{NotNegative, Number};
 use crate::registry::{COORDINATE, ParameterError, ParameterType, Parameters, optional};
@@ -87,16 +86,6 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
     },
 };
 
-/// Spring and damper on an algebraic coordinate.
-#[derive(Clone, Debug)]
-pub(crate) struct CoordinateSpring {
-    coordinate: [CoordinateId; 1],
-    law: ForceLaw,
-    /// Coordinate at zero force.
-    rest: f64,
-    switch_states: SwitchStates,
-}
-
 fn add(
     model: &InitialModel,
     attached: Attached,
@@ -108,85 +97,42 @@ fn add(
     model.check_quantity(coordinate, acts_on)?;
     let law = ForceLaw::new(parameters, [elastic, damper])?;
     let rest = law.rest(parameters, rest, [model.coordinate_value(coordinate), 0.0])?;
-    Ok(Contribution::of(
-        model,
-        CoordinateSpring { coordinate: [coordinate], law, rest, switch_states: SwitchStates::default() },
-    ))
+    Ok(OverMeasure::contribution(model, Elongation { coordinate: [coordinate], rest }, law))
 }
 
-impl CoordinateSpring {
-    /// Elongation and its rate.
-    fn motion(&self, at: &Kinematics) -> [f64; 2] {
-        let coordinate = &at.coordinates[self.coordinate[0]];
-        [coordinate.value - self.rest, coordinate.rate]
-    }
+/// Change of a coordinate since it was at rest.
+#[derive(Clone, Debug)]
+pub(super) struct Elongation {
+    pub(super) coordinate: [CoordinateId; 1],
+    /// Coordinate without elongation.
+    pub(super) rest: f64,
 }
 
-impl Element for CoordinateSpring {
+impl Measure for Elongation {
+    type Reading = [f64; 2];
+
     fn unknowns(&self) -> Unknowns<'_> {
         Unknowns::of_coordinates(&self.coordinate)
     }
 
-    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        let [elongation, rate] = self.motion(at);
-        out[0] += self.law.evaluate(elongation, rate, self.switch_states.of(at)).force;
+    fn read(&self, at: &Kinematics) -> [f64; 2] {
+        let coordinate = &at.coordinates[self.coordinate[0]];
+        [coordinate.value - self.rest, coordinate.rate]
     }
 
-    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let [elongation, rate] = self.motion(at);
-        let response = self.law.evaluate(elongation, rate, self.switch_states.of(at));
-        out.stiffness[0] += response.stiffness;
-        out.damping[0] += response.damping;
+    fn motion(reading: &[f64; 2]) -> [f64; 2] {
+        *reading
     }
 
-    fn energy(&self, at: &Kinematics) -> Energy {
-        Energy { strain: self.law.energy(self.motion(at)[0]), ..Energy::default() }
+    fn gradients(&self, _: &[f64; 2]) -> [Gradient; 2] {
+        Gradient::of_unknown(0)
     }
 
-    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
-        Some(&mut self.switch_states)
+    fn add_force(&self, _: &[f64; 2], force: f64, out: &mut [f64]) {
+        out[0] += force;
     }
 
-    fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { load: Some(self), spring: Some(self), laws: Some(self), ..Capabilities::default() }
-    }
-}
-
-impl Load for CoordinateSpring {
-    fn is_active(&self) -> bool {
-        self.law.is_active()
-    }
-}
-
-impl Spring for CoordinateSpring {
-    fn dissipates(&self) -> bool {
-        self.law.depends_on_rate()
-    }
-
-    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
-        let [elongation, rate] = self.motion(at);
-        [elongation, rate, self.law.evaluate(elongation, rate, self.switch_states.of(at)).force]
-    }
-
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
-        let [elongation, rate] = self.motion(at);
-        self.law.evaluate(elongation, rate, self.switch_states.of(at)).gradients(Gradient::of_unknown(0))
-    }
-}
-
-impl ForceLaws for CoordinateSpring {
-    fn switch_count(&self) -> usize {
-        self.law.switch_count()
-    }
-
-    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        let [elongation, rate] = self.motion(at);
-        self.law.switches(elongation, rate, self.switch_states.of(at), out);
-    }
-
-    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        if !self.law.is_linear() {
-            visit(&self.law, &self.motion(at));
-        }
+    fn coordinate(&self) -> Option<CoordinateId> {
+        Some(self.coordinate[0])
     }
 }

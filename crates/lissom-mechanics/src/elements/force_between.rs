@@ -5,16 +5,17 @@
 //! δ(p u) = p (1 - u uᵀ)/|Δ| δΔ
 //! ```
 
-use lissom_motion::{Matrix3, Vector3, skew};
+use std::sync::Arc;
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::point_spring::{Point, add_pull};
-use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
-use crate::kinematics::{Kinematics, NodeId};
+use super::over_measure::Measure;
+use super::polyline::Polyline;
+use super::{Capabilities, Element, Load, Tangents, Unknowns};
+use crate::kinematics::Kinematics;
 use crate::ports::Ports;
-use crate::registry::{Function, ParameterError, ParameterType, Parameters, required};
+use crate::registry::{Constant, Function, ParameterError, ParameterType, Parameters, required};
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
@@ -34,8 +35,7 @@ pub(crate) const KIND: ElementKind = ElementKind {
 /// Force between two points.
 #[derive(Clone, Debug)]
 pub(crate) struct ForceBetween {
-    nodes: [NodeId; 2],
-    points: [Vector3; 2],
+    line: Polyline<2>,
     size: Function,
 }
 
@@ -50,50 +50,21 @@ fn build(
         let problem = "is at the same position as `base`: the force has no direction";
         return Err(ParameterError::new("tip", problem));
     }
-    Ok(Contribution::of(model, ForceBetween { nodes, points, size: parameters.function("force")? }))
-}
-
-impl ForceBetween {
-    /// The points, their distance and the direction from base to tip.
-    fn line(&self, at: &Kinematics) -> ([Point; 2], f64, Vector3) {
-        let points = [0, 1].map(|i| Point::new(&at.nodes[self.nodes[i]], &self.points[i]));
-        let span = points[1].position - points[0].position;
-        // Any finite direction is better for Newton's method than NaN.
-        let length = span.norm().max(f64::MIN_POSITIVE);
-        (points, length, span / length)
-    }
+    let line = Polyline::between(nodes, points, Arc::new(Constant(0.0)));
+    Ok(Contribution::of(model, ForceBetween { line, size: parameters.function("force")? }))
 }
 
 impl Element for ForceBetween {
     fn unknowns(&self) -> Unknowns<'_> {
-        Unknowns::of_nodes(&self.nodes)
+        self.line.unknowns()
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        let (points, _, direction) = self.line(at);
-        add_pull(&points, &(-self.size.value(at.time) * direction), out);
+        self.line.add_force(&self.line.read(at), -self.size.value(at.time), out);
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let (points, length, u) = self.line(at);
-        let pull = -self.size.value(at.time);
-        let by_span = pull * (Matrix3::identity() - u * u.transpose()) / length;
-        let gradients = points.each_ref().map(Point::gradient);
-        for (i, own) in [-1.0, 1.0].into_iter().enumerate() {
-            for (j, other) in [-1.0, 1.0].into_iter().enumerate() {
-                let mut stiffness = own * other * gradients[i].transpose() * by_span * gradients[j];
-                if i == j {
-                    // The force in the axes of the rotating node: δ(Rᵀ t) = (Rᵀ t)~ δθ.
-                    let local = skew(&points[i].rotation.tr_mul(&(own * pull * u)));
-                    let moment = skew(&points[i].offset) * local;
-                    let mut turned = stiffness.fixed_view_mut::<3, 3>(0, 3);
-                    turned += local;
-                    let mut turned = stiffness.fixed_view_mut::<3, 3>(3, 3);
-                    turned += moment;
-                }
-                add_block(&mut out.stiffness, 12, (6 * i, 6 * j), &stiffness);
-            }
-        }
+        self.line.add_bend(&self.line.read(at), -self.size.value(at.time), out);
     }
 
     fn capabilities(&self) -> Capabilities<'_> {

@@ -11,6 +11,7 @@
 //! difference between f and P' dissipates energy as long as it has the sign of v, because clamping is monotone. A law
 //! that violates this has no potential energy, and its work is treated as that of a load.
 
+use super::over_measure::MeasuredLaw;
 use crate::evaluation::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
 use crate::law::{Enclosure, Interval, NARROW_BOUNDS, ScalarLaw, hull, scaled, sum};
@@ -165,18 +166,6 @@ impl ForceLaw {
         Err(ParameterError::new("preload", problem))
     }
 
-    /// Whether it may supply energy, so that its work is computed instead of its potential energy.
-    pub(crate) fn is_active(&self) -> bool {
-        self.is_active
-    }
-
-    /// Whether it is a linear spring with a linear damper.
-    pub(crate) fn is_linear(&self) -> bool {
-        let has_kinks =
-            self.side != Side::Both || self.play > 0.0 || self.limits.iter().any(|limit| is_passed(*limit));
-        !(has_kinks || self.elastic.is_some() || self.damper.is_some())
-    }
-
     /// Whether the force depends on the rate.
     pub(crate) fn depends_on_rate(&self) -> bool {
         let is_damped = |law: &Force| law.depends_on_second();
@@ -197,19 +186,6 @@ impl ForceLaw {
     fn has_ends(&self) -> [bool; 2] {
         let has_play = self.side == Side::Both && self.play > 0.0;
         [has_play || self.side == Side::Positive, has_play || self.side == Side::Negative]
-    }
-
-    /// Number of kinks that [`switches`](Self::switches) reports.
-    pub(crate) fn switch_count(&self) -> usize {
-        let laws = [&self.elastic, &self.damper].into_iter().flatten();
-        let breakpoints: usize = laws.map(|law| law.switch_count()).sum();
-        let limits = self.limits.iter().filter(|limit| is_passed(**limit)).count();
-        self.has_ends().iter().filter(|has| **has).count() + breakpoints + limits
-    }
-
-    /// Appends numbers that change their sign where the force begins or ends, at kinks of its expressions, and at limits.
-    pub(crate) fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<Switch>) {
-        self.walk(elongation, rate, sides, |switch| out.push(switch));
     }
 
     /// The force at an elongation and its rate, continued from known `sides` of its switches.
@@ -267,7 +243,7 @@ impl ForceLaw {
     }
 
     /// Potential energy [J]; zero at the free length.
-    pub(crate) fn energy(&self, elongation: f64) -> f64 {
+    fn potential(&self, elongation: f64) -> f64 {
         let past = self.past(elongation);
         if self.is_active || past == 0.0 {
             return 0.0;
@@ -312,6 +288,43 @@ impl ForceLaw {
             })
         });
         elastic_is && damper_is
+    }
+}
+
+impl MeasuredLaw for ForceLaw {
+    const SUPPLIES: bool = true;
+
+    fn is_active(&self) -> bool {
+        self.is_active
+    }
+
+    fn response(&self, [elongation, rate]: [f64; 2], sides: &[f64]) -> Response {
+        self.evaluate(elongation, rate, sides)
+    }
+
+    fn energy(&self, elongation: f64, _: &[f64]) -> f64 {
+        self.potential(elongation)
+    }
+
+    fn dissipates(&self) -> bool {
+        self.depends_on_rate()
+    }
+
+    fn switch_count(&self) -> usize {
+        let laws = [&self.elastic, &self.damper].into_iter().flatten();
+        let breakpoints: usize = laws.map(|law| law.switch_count()).sum();
+        let limits = self.limits.iter().filter(|limit| is_passed(**limit)).count();
+        self.has_ends().iter().filter(|has| **has).count() + breakpoints + limits
+    }
+
+    fn add_switches(&self, [elongation, rate]: [f64; 2], sides: &[f64], out: &mut Vec<Switch>) {
+        self.walk(elongation, rate, sides, |switch| out.push(switch));
+    }
+
+    fn examined(&self) -> Option<&ForceLaw> {
+        let has_kinks =
+            self.side != Side::Both || self.play > 0.0 || self.limits.iter().any(|limit| is_passed(*limit));
+        (has_kinks || self.elastic.is_some() || self.damper.is_some()).then_some(self)
     }
 }
 
@@ -488,13 +501,13 @@ mod tests {
         assert_eq!(both.evaluate(0.05, 3.0, &[]), Response::default());
         assert!((both.evaluate(0.3, 0.0, &[]).force - 20.0).abs() < 1e-12);
         assert!((both.evaluate(-0.3, 1.0, &[]).force + 10.0).abs() < 1e-12);
-        assert!((both.energy(-0.3) - 2.0).abs() < 1e-12);
+        assert!((both.potential(-0.3) - 2.0).abs() < 1e-12);
         let compressed = law(&given.clone().with("side", Value::Text("compression".to_owned())));
         assert_eq!(compressed.evaluate(0.3, 0.0, &[]).force, 0.0);
         assert!((compressed.evaluate(-0.3, 0.0, &[]).force + 20.0).abs() < 1e-12);
         // It does not pull during unloading.
         assert_eq!(compressed.evaluate(-0.3, 5.0, &[]), Response::default());
-        assert_eq!(compressed.energy(0.3), 0.0);
+        assert_eq!(compressed.potential(0.3), 0.0);
         let limited = law(&given.with("limits", Value::Range([-5.0, 8.0])));
         assert_eq!(limited.evaluate(0.5, 0.0, &[]), Response { force: 8.0, ..Response::default() });
         // On a known side it is continued, however far an iterate moves.
@@ -503,7 +516,7 @@ mod tests {
         assert_eq!(limited.evaluate(0.5, 1.0, &free), Response::default());
         assert!((limited.evaluate(0.05, 0.0, &[1.0, -1.0, -1.0, -1.0]).force + 5.0).abs() < 1e-12);
         // ½ k (8/k)² up to saturation, then 8 N along the rest.
-        assert!((limited.energy(0.5) - (0.32 + 8.0 * 0.32)).abs() < 1e-8, "{}", limited.energy(0.5));
+        assert!((limited.potential(0.5) - (0.32 + 8.0 * 0.32)).abs() < 1e-8, "{}", limited.potential(0.5));
     }
 
     #[test]
@@ -514,7 +527,7 @@ mod tests {
             .with("limits", Value::Range([f64::NEG_INFINITY, 8.0]));
         let at = |law: &ForceLaw, elongation: f64| {
             let mut found = Vec::new();
-            law.switches(elongation, 0.0, &[], &mut found);
+            law.add_switches([elongation, 0.0], &[], &mut found);
             found.iter().map(|switch| switch.number).collect::<Vec<f64>>()
         };
         let both = law(&given);
@@ -533,10 +546,10 @@ mod tests {
     #[test]
     fn energy_is_the_integral_of_the_force() {
         let cubic_law = law(&Parameters::new().with("force", cubic(0.0)));
-        assert!((cubic_law.energy(-1.3) - 0.25 * 1.3_f64.powi(4)).abs() < 1e-12);
+        assert!((cubic_law.potential(-1.3) - 0.25 * 1.3_f64.powi(4)).abs() < 1e-12);
         let saturated =
             law(&Parameters::new().with("force", cubic(0.0)).with("limits", Value::Range([-1.0, 1.0])));
-        assert!((saturated.energy(2.0) - 1.25).abs() < 1e-8, "{}", saturated.energy(2.0));
+        assert!((saturated.potential(2.0) - 1.25).abs() < 1e-8, "{}", saturated.potential(2.0));
     }
 
     /// Intervals of a cubic are integrated exactly, so that a kink costs no accuracy, and additional breakpoints have
@@ -571,7 +584,7 @@ mod tests {
         // A damper with a constant force supplies energy in one direction.
         assert!(law(&Parameters::new().with("damper_force", Value::Number(1.0))).is_active());
         let active = law(&Parameters::new().with("force", cubic(-2.0)));
-        assert_eq!(active.energy(1.0), 0.0);
+        assert_eq!(active.potential(1.0), 0.0);
         // The potential of an attraction is infinite at zero distance.
         let attraction = Value::Force(Arc::new(Attraction));
         assert!(law(&Parameters::new().with("force", attraction)).is_active());
@@ -626,7 +639,7 @@ mod tests {
                             let width = end / f64::from(steps);
                             let force = |k: u32| law.evaluate(width * (f64::from(k) + 0.5), 0.0, &[]).force;
                             let wanted: f64 = width * (0..steps as u32).map(force).sum::<f64>();
-                            let found = law.energy(end);
+                            let found = law.potential(end);
                             assert!(
                                 (found - wanted).abs() < 1e-5 * (0.01 + wanted.abs()),
                                 "{name} {side:?} {play} {limits:?} up to {end}: {found}, {wanted}"

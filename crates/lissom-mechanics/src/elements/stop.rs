@@ -2,17 +2,17 @@
 //! impact velocity: slower impacts dissipate less.
 
 use super::contribution::Contribution;
+use super::coordinate_spring::Elongation;
 use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
+use super::over_measure::{MeasuredLaw, OverMeasure};
 use crate::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
-use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
-use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
+use crate::evaluation::switch_states::is_on_upper_branch;
+use crate::kinematics::{Quantity, Switch};
 use crate::ports::Ports;
 use crate::registry::ParameterType::{NotNegative, Positive};
 use crate::registry::{COORDINATE, ParameterError, ParameterType, Parameters, optional, required, unitless};
-use crate::signals::measurement::Gradient;
 
 /// Registry entry of the stop of a rotation.
 pub const TORSIONAL: ElementKind = ElementKind {
@@ -75,15 +75,13 @@ pub const AXIAL: ElementKind = ElementKind {
 /// Length or angle to which a stop with one end at zero is compared [m or rad].
 const MIN_RANGE: f64 = 0.1;
 
-/// Stops on an algebraic coordinate.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stop {
-    coordinate: [CoordinateId; 1],
+/// Force of the stops at both ends of a range.
+#[derive(Clone, Debug)]
+struct Stops {
     range: [f64; 2],
     compliance: Compliance,
     /// Factor a and damping c.
     dissipation: [f64; 2],
-    switch_states: SwitchStates,
 }
 
 fn add(
@@ -99,14 +97,12 @@ fn add(
         return Err(ParameterError::new("exponent", "must be 1 or greater: the stiffness would be infinite"));
     }
     let range = parameters.range("range")?.ok_or_else(|| ParameterError::new("range", "is missing"))?;
-    let stop = Stop {
-        coordinate: [coordinate],
+    let stops = Stops {
         range,
         compliance: Compliance { stiffness: parameters.number("stiffness")?, exponent },
         dissipation: [dissipation(parameters)?, parameters.number("damping")?],
-        switch_states: SwitchStates::default(),
     };
-    Ok(Contribution::of(model, stop))
+    Ok(OverMeasure::contribution(model, Elongation { coordinate: [coordinate], rest: 0.0 }, stops))
 }
 
 /// The factor a, given or computed from the restitution.
@@ -138,12 +134,10 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
     Ok(relative_dissipation(restitution) / parameters.number("impact_velocity")?)
 }
 
-impl Stop {
+impl Stops {
     /// Penetration and its rate, and the direction of the force on the left-hand side.
-    fn contact(&self, at: &Kinematics) -> Option<(f64, f64, f64)> {
-        let rate = at.coordinates[self.coordinate[0]].rate;
-        let [past_high, past_low] = self.depths(at);
-        let sides = self.switch_states.of(at);
+    fn contact(&self, [value, rate]: [f64; 2], sides: &[f64]) -> Option<(f64, f64, f64)> {
+        let [past_high, past_low] = self.depths(value);
         if is_on_upper_branch(sides.first(), past_high) {
             Some((past_high, rate, 1.0))
         } else if is_on_upper_branch(sides.get(1), past_low) {
@@ -154,78 +148,46 @@ impl Stop {
     }
 
     /// Penetration of the upper and the lower end of its range.
-    fn depths(&self, at: &Kinematics) -> [f64; 2] {
-        let value = at.coordinates[self.coordinate[0]].value;
+    fn depths(&self, value: f64) -> [f64; 2] {
         [value - self.range[1], self.range[0] - value]
     }
+}
 
-    /// The force with its derivatives.
-    fn response(&self, at: &Kinematics) -> Response {
-        let Some((depth, rate, direction)) = self.contact(at) else { return Response::default() };
+impl MeasuredLaw for Stops {
+    const SUPPLIES: bool = false;
+
+    fn is_active(&self) -> bool {
+        false
+    }
+
+    fn response(&self, motion: [f64; 2], sides: &[f64]) -> Response {
+        let Some((depth, rate, direction)) = self.contact(motion, sides) else { return Response::default() };
         let [force, stiffness, damping] = self.compliance.damped_force(depth, rate, self.dissipation);
         Response { force: direction * force, stiffness, damping }
     }
-}
 
-impl Element for Stop {
-    fn unknowns(&self) -> Unknowns<'_> {
-        Unknowns::of_coordinates(&self.coordinate)
+    fn energy(&self, value: f64, sides: &[f64]) -> f64 {
+        self.contact([value, 0.0], sides).map_or(0.0, |(depth, ..)| self.compliance.energy(depth))
     }
 
-    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        out[0] += self.response(at).force;
-    }
-
-    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let response = self.response(at);
-        out.stiffness[0] += response.stiffness;
-        out.damping[0] += response.damping;
-    }
-
-    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
-        Some(&mut self.switch_states)
-    }
-
-    fn energy(&self, at: &Kinematics) -> Energy {
-        let strain = self.contact(at).map_or(0.0, |(depth, ..)| self.compliance.energy(depth));
-        Energy { strain, ..Energy::default() }
-    }
-
-    fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), laws: Some(self), ..Capabilities::default() }
-    }
-}
-
-impl Spring for Stop {
     fn dissipates(&self) -> bool {
         self.dissipation.iter().any(|of| *of > 0.0)
     }
 
-    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
-        let coordinate = &at.coordinates[self.coordinate[0]];
-        [coordinate.value, coordinate.rate, self.response(at).force]
-    }
-
-    fn beyond_stop(&self, at: &Kinematics) -> Option<(CoordinateId, [f64; 2])> {
-        let [low, high] = self.range;
-        let finite = [low, high].map(|end| if end.is_finite() { end.abs() } else { 0.0 });
-        let range =
-            if (high - low).is_finite() { high - low } else { finite[0].max(finite[1]).max(MIN_RANGE) };
-        let depth = self.depths(at).into_iter().fold(0.0, f64::max);
-        (depth > 0.0).then_some((self.coordinate[0], [depth, range]))
-    }
-
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
-        self.response(at).gradients(Gradient::of_unknown(0))
-    }
-}
-
-impl ForceLaws for Stop {
     fn switch_count(&self) -> usize {
         2
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        out.extend(self.depths(at).map(Switch::from));
+    fn add_switches(&self, [value, _]: [f64; 2], _: &[f64], out: &mut Vec<Switch>) {
+        out.extend(self.depths(value).map(Switch::from));
+    }
+
+    fn beyond_stop(&self, value: f64) -> Option<[f64; 2]> {
+        let [low, high] = self.range;
+        let finite = [low, high].map(|end| if end.is_finite() { end.abs() } else { 0.0 });
+        let range =
+            if (high - low).is_finite() { high - low } else { finite[0].max(finite[1]).max(MIN_RANGE) };
+        let depth = self.depths(value).into_iter().fold(0.0, f64::max);
+        (depth > 0.0).then_some([depth, range])
     }
 }
