@@ -141,7 +141,7 @@ pub(crate) enum Measure {
     /// Load (time) at which the value grows beyond all bounds: root of the inverse as a parabola in the square of the
     /// time, through the last three records; for symmetric problems.
     Divergence,
-    /// The same with the time itself.
+    /// Load at which the value grows beyond all bounds, from a parabola in the time itself.
     DivergenceOneSided,
     /// Largest `load` over the value, where the curve through the last four records turns: a limit point.
     Limit,

@@ -13,7 +13,7 @@ use crate::random::draw::Draw;
 
 /// Errors of angles [rad] and displacements, relative to the largest one, that are accurate at the default tolerance of 1e-5.
 const ALLOWED: f64 = 1e-4;
-/// The same of the driving moment and of a step of statics, relative to the largest one.
+/// Errors of the driving moment and of a step of statics, relative to the largest one, that are accurate.
 const ALLOWED_MOMENT: f64 = 2e-3;
 /// Largest angle by which axes are out of line [rad].
 const OUT_OF_LINE: f64 = 3e-6;

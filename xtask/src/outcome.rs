@@ -92,9 +92,9 @@ pub(crate) fn digits(difference: f64) -> f64 {
 pub(crate) struct Outcome {
     /// Index among the cases.
     pub(crate) index: usize,
-    /// Its rows.
+    /// Rows of the case.
     pub(crate) rows: Vec<Row>,
-    /// Its plots.
+    /// Plots of the case.
     pub(crate) figures: Vec<Figure>,
     /// Time taken by all its runs.
     pub(crate) wall: Duration,

@@ -26,7 +26,7 @@ pub(crate) struct Finished {
     pub(crate) violation: f64,
     /// Mesh and step, in words.
     pub(crate) grid: String,
-    /// Its warnings.
+    /// Warnings of the run.
     pub(crate) warnings: Vec<String>,
 }
 

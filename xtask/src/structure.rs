@@ -294,7 +294,7 @@ pub(crate) fn cycles(root: &Path) -> Result<Vec<Vec<String>>, StructureError> {
     Ok(cycles_of(&Crate::read(root)?.edges()))
 }
 
-/// Those of its folders and of the files beside them.
+/// Import cycles of the crate's folders and of the files beside them.
 ///
 /// # Errors
 /// If a file cannot be read or is no Rust.
@@ -415,7 +415,7 @@ mod tests {
         "lissom-python",
     ];
 
-    /// Those of the core.
+    /// Crates of the core.
     const OF_CORE: [&str; 5] =
         ["lissom-mechanics", "lissom-flexible", "lissom-contact", "lissom-system", "lissom-core"];
 

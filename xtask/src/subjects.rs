@@ -25,7 +25,7 @@ const HARD_STEP: &str = "4e-3";
 
 /// A model that is run again and again.
 pub(crate) struct Subject {
-    /// Its name in tables.
+    /// Name of the model in tables.
     pub(crate) name: String,
     /// The model.
     pub(crate) model: Model,
@@ -143,7 +143,7 @@ pub(crate) fn cases() -> Result<Vec<Subject>, VerifyError> {
     Ok(all)
 }
 
-/// The same model with steps that are so many times as long, each of them recorded.
+/// This model with steps that are so many times as long, each of them recorded.
 fn with_longer_steps(name: &str, model: &Model, longer: f64) -> Option<Subject> {
     let document = model.document().ok()?;
     let AnalysisKind::Dynamics { step, .. } = document.analysis.kind else { return None };

@@ -1,4 +1,4 @@
-//! The same model written differently: parts in another order, turned in space, in other units. Works on the
+//! Writes a model differently: parts in another order, turned in space, in other units. Works on the
 //! text of model files, with the keys of lengths and directions.
 
 use toml::{Table, Value};

@@ -13,7 +13,7 @@ use crate::geometry::gap::Pair;
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::law::{Enclosure, Interval, ScalarLaw, scaled, sum};
 
-/// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
+/// Depth [m]: penetrations below a hundredth of it may be missed in a contact that has not occurred yet.
 const SMALL_DEPTH: f64 = 1e-6;
 
 /// The law whose force is the penetration.
@@ -23,7 +23,7 @@ pub(crate) const NOTHING: Compliance = Compliance { stiffness: 0.0, exponent: 1.
 
 /// A distance as a function of numbers.
 pub(crate) trait Distance {
-    /// Its value.
+    /// Value of the distance.
     fn at(&self, arguments: &[f64]) -> f64;
     /// Bounds, given those of the arguments.
     fn range(&self, arguments: &[Interval]) -> Interval;
@@ -40,7 +40,7 @@ impl Distance for &dyn Pair {
     fn range(&self, arguments: &[Interval]) -> Interval {
         (**self).range(arguments)
     }
-    /// Of a point above a plane.
+    /// Normal of the plane, for a point above a plane.
     fn slope(&self) -> Option<Vector3> {
         self.is_linear().then(|| self.gap(&Vector3::zeros(), &Matrix3::identity()).normal)
     }

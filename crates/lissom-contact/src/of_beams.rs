@@ -46,7 +46,7 @@ pub struct BeamContact {
     base: NodeId,
     section: Section,
     bristles: Vec<CoordinateId>,
-    /// Its nodes, each once, without the ground.
+    /// Nodes of the contact, each once, without the ground.
     nodes: Vec<NodeId>,
     switch_states: SwitchStates,
 }
@@ -96,7 +96,7 @@ impl BeamContact {
         Self { contact, base: base.node, section, bristles, nodes, switch_states: SwitchStates::default() }
     }
 
-    /// The same with the name that warnings contain.
+    /// Sets the name that warnings contain.
     pub fn with_name(mut self, name: &str) -> Self {
         self.contact = self.contact.with_name(name);
         self

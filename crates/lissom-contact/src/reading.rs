@@ -26,7 +26,7 @@ pub struct ContactReading {
 }
 
 impl ContactReading {
-    /// Of parts that are apart, wherever they are nearest.
+    /// Reading for parts that are apart, wherever they are nearest.
     pub fn apart(gap: f64) -> Self {
         let zero = Vector3::zeros();
         let (is_touching, is_sliding) = (false, false);
@@ -42,7 +42,7 @@ impl ContactReading {
         }
     }
 
-    /// The same with `sign` -1 for the part that is the tip elsewhere.
+    /// Reading with `sign` -1 for the part that is the tip elsewhere.
     pub fn with_sign(self, sign: f64) -> Self {
         Self { force: sign * self.force, friction: sign * self.friction, ..self }
     }

@@ -26,7 +26,7 @@ pub struct RigidFriction {
 }
 
 impl RigidFriction {
-    /// Of a contact.
+    /// Friction of a contact.
     pub fn new(contact: Arc<RigidContact>) -> Self {
         Self { multipliers: [contact.first_multiplier], contact }
     }
@@ -96,7 +96,7 @@ pub struct ContactGuard {
 }
 
 impl ContactGuard {
-    /// Of a contact.
+    /// Guard of a contact.
     pub fn new(contact: Arc<RigidContact>, guard: Guard) -> Self {
         Self { contact, guard }
     }

@@ -19,7 +19,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
     Warning::ENTRIES.iter().chain(of_motions).chain([&failure::ENTRY]).chain(of_analyses())
 }
 
-/// Those of assembly, paths, linear models and snapshots, which do not concern a motion.
+/// Entries of assembly, paths, linear models and snapshots, which do not concern a motion.
 pub(crate) fn of_analyses() -> impl Iterator<Item = &'static Entry> {
     let parts = [
         AssemblyError::ENTRIES,

@@ -153,7 +153,7 @@ pub(crate) mod tests {
         [String; 2] => [NAME.to_owned(), "other".to_owned()];
     }
 
-    /// Those of assembly, paths and linear models.
+    /// Diagnostics of assembly, paths and linear models.
     fn of_analyses() -> impl Iterator<Item = Diagnostic> {
         fn of<E: Diagnose>(samples: &[E]) -> Vec<Diagnostic> {
             samples.iter().map(E::diagnostic).collect()

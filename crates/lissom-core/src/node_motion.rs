@@ -32,7 +32,7 @@ pub(crate) enum IncrementKind {
     FromStart,
     /// See the formulas.
     RelativeToDrift,
-    /// The same, with V - V₀ computed without cancellation: multiplied by [`StageTable::gain`] it replaces the acceleration.
+    /// Increments with V - V₀ computed without cancellation: multiplied by [`StageTable::gain`] it replaces the acceleration.
     VelocityChange,
     /// See the formulas.
     Inertial,
@@ -47,7 +47,7 @@ pub(crate) struct StageTable {
     pub(crate) ahead: f64,
     /// Weights of all stages' increments in the velocity [1/s].
     pub(crate) velocity: [f64; MAX_STAGES],
-    /// The same in the acceleration [1/s²].
+    /// Weights of all stages' increments in the acceleration [1/s²].
     pub(crate) acceleration: [f64; MAX_STAGES],
     /// See [`IncrementKind::VelocityChange`] [1/s].
     pub(crate) gain: f64,
@@ -58,7 +58,7 @@ pub(crate) struct StageTable {
 pub(crate) struct Known<'a> {
     /// Part of the velocity that does not depend on increments, without the twist itself [m/s, rad/s].
     pub(crate) velocity: &'a [f64],
-    /// The same of the acceleration [m/s², rad/s²].
+    /// Part of the acceleration that does not depend on increments [m/s², rad/s²].
     pub(crate) acceleration: &'a [f64],
 }
 
@@ -95,7 +95,7 @@ struct BlockStart {
     curvature: Screws,
 }
 
-/// The same for as many nodes as are processed side by side.
+/// State at the start of a step of as many nodes as are processed side by side.
 #[derive(Clone, Copy)]
 struct Start<R> {
     frame: Pose<R>,

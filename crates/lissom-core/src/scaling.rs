@@ -133,7 +133,7 @@ impl Scaled {
         Self::new(&ScalingChoice::default(), representative, rate.recip())
     }
 
-    /// The same scale for steps of another size [s]: any scale is valid, and a tangent assembled with this one
+    /// This scale for steps of another size [s]: any scale is valid, and a tangent assembled with this one
     /// remains usable.
     #[must_use]
     pub fn resized(mut self, choice: &ScalingChoice, h: f64) -> Self {

@@ -15,9 +15,9 @@ pub enum Scale {
 pub struct Axis {
     /// Quantity and unit.
     pub label: String,
-    /// Its division.
+    /// Division of the axis.
     pub scale: Scale,
-    /// Its range; by default that of the curves with a margin.
+    /// Range of the axis; by default that of the curves with a margin.
     pub range: Option<[f64; 2]>,
 }
 

@@ -42,13 +42,13 @@ pub enum Mark {
 /// Points joined by lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Its name in the legend; none if it is empty.
+    /// Name of the curve in the legend; none if it is empty.
     pub name: String,
-    /// Its points. Those that have no position on the axes are omitted.
+    /// Points of the curve. Those that have no position on the axes are omitted.
     pub points: Vec<(f64, f64)>,
-    /// Its colour.
+    /// Colour of the curve.
     pub shade: Shade,
-    /// Its width; zero for marks without a line.
+    /// Width of the curve; zero for marks without a line.
     pub width: f64,
     /// Whether it is dashed.
     pub is_dashed: bool,

@@ -20,7 +20,7 @@ impl Drawing {
         self.png_at(2.0)
     }
 
-    /// The same with `scale` pixels for each of the drawing.
+    /// The drawing as the bytes of a PNG file with `scale` pixels for each of the drawing.
     ///
     /// # Errors
     /// If a position is not a finite number, or the drawing is too large.

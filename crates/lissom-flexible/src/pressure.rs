@@ -27,10 +27,10 @@ pub fn face_points<const NODES: usize>() -> FacePoints<NODES> {
 
 /// A force per area that depends on the place.
 pub trait PressureField: Send + Sync + std::fmt::Debug {
-    /// Its value at a place [m] and an instant [Pa].
+    /// Value of the field at a place [m] and an instant [Pa].
     fn value(&self, time: f64, place: &Vector3) -> f64;
 
-    /// Its derivative by the place [Pa/m].
+    /// Derivative of the value by the place [Pa/m].
     fn slope(&self, time: f64, place: &Vector3) -> Vector3;
 
     /// Known breakpoints in time [s].
@@ -40,7 +40,7 @@ pub trait PressureField: Send + Sync + std::fmt::Debug {
 /// A force per area against the outward normal [Pa].
 #[derive(Clone, Debug)]
 pub enum Pressure {
-    /// The same everywhere on a face.
+    /// Uniform pressure on a face.
     Uniform(Function),
     /// One that depends on the place.
     Field(Arc<dyn PressureField>),

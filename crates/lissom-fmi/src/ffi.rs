@@ -302,7 +302,7 @@ macro_rules! without {
     )*};
 }
 
-/// The same for functions without a number of values.
+/// Functions of missing features that have no number of values: an error.
 macro_rules! never {
     ($what:literal: $($name:ident)*) => {$(
         #[unsafe(no_mangle)]

@@ -26,7 +26,7 @@ pub enum ConnectionFault {
     },
     /// An element is inverted or has no volume.
     Inverted {
-        /// Its index.
+        /// Index of the element.
         element: usize,
         /// Where [m].
         position: Vector3,

@@ -5,7 +5,7 @@ use crate::mesh::{Mesh, MeshElement};
 /// An edge of an element of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Edge {
-    /// Its nodes, ascending.
+    /// Nodes of the edge, ascending.
     pub(crate) nodes: [usize; 2],
     pub(crate) element: usize,
     /// Whether the element runs from the first node to the second.

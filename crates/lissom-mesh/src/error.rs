@@ -32,7 +32,7 @@ pub enum MeshError {
     /// A part of a mesh is empty.
     #[error("no element of {from} has a shape that is wanted; its elements: {shapes}")]
     Empty {
-        /// Of which set, or of the mesh.
+        /// Set that is empty, or the mesh.
         from: String,
         /// Shapes that occur, with their numbers of elements.
         shapes: String,

@@ -34,7 +34,7 @@ pub enum MeshFaultKind {
     UnusedNode,
     /// An element is slender.
     AspectRatio {
-        /// Its length by its width; 1 of a square and of an equilateral triangle.
+        /// Length of the element by its width; 1 of a square and of an equilateral triangle.
         ratio: f64,
     },
     /// The corners of a quadrilateral are not in a plane.

@@ -51,7 +51,7 @@ pub enum MeshShape {
     Quadrilateral4,
     /// Four corners, then the middles of the sides 12, 23, 34, 41.
     Quadrilateral8,
-    /// The same, then the node at the centre.
+    /// Four corners and four middles of the sides, then the node at the centre.
     Quadrilateral9,
     /// Three nodes of a face, and the one opposite.
     Tetrahedron4,

@@ -26,9 +26,9 @@ pub struct ChoiceEntry {
     pub name: &'static str,
     /// One sentence.
     pub summary: &'static str,
-    /// Its parameters in the table `[analysis]`.
+    /// Parameters of the choice in the table `[analysis]`.
     pub parameters: &'static [Parameter],
-    /// Its default `tolerance` of Newton's iterations, if different from that of other schemes.
+    /// Default `tolerance` of Newton's iterations, if different from that of other schemes.
     pub tolerance: Option<f64>,
 }
 

@@ -25,7 +25,7 @@ impl<S: Simd> Lanes<S> {
     /// Vectors in a block.
     pub const PARTS: usize = WIDTH / S::F64_LANES;
 
-    /// The same number in all lanes.
+    /// Lanes that all have one value.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
         Self { simd, values: simd.splat_f64s(value) }

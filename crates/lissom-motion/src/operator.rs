@@ -68,7 +68,7 @@ pub(crate) fn tangent_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
     pairs
 }
 
-/// The same for `T⁻¹ = I + d̃/2 + e d̃²`.
+/// The coefficients of `T⁻¹ = I + d̃/2 + e d̃²` and their derivatives with respect to `q = d·d`.
 #[inline(always)]
 pub(crate) fn inverse_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
     q: Dual<R>,

@@ -44,7 +44,7 @@ impl Rotation {
         Versor::from(self).logarithm().into()
     }
 
-    /// The same rotation with the quaternion that has a positive scalar part.
+    /// This rotation with the quaternion that has a positive scalar part.
     #[inline]
     fn with_positive_scalar(self) -> Self {
         if self.scalar > 0.0 { self } else { self.negated_or_half_turn() }
@@ -190,7 +190,7 @@ impl Rotation {
         vector * (2.0 / scalar.max(1e-100))
     }
 
-    /// The same rotation with the quaternion normalised.
+    /// This rotation with the quaternion normalised.
     #[inline]
     pub fn normalized(&self) -> Self {
         let factor = 1.0 / (self.scalar * self.scalar + self.vector.norm_squared()).sqrt();

@@ -30,7 +30,7 @@ impl<R: Real> Screw<R> {
         Self::new(Triple::new(a, b, c), Triple::new(d, e, f))
     }
 
-    /// Its six components.
+    /// Six components of the screw.
     #[inline(always)]
     pub fn components(self) -> [R; 6] {
         let (u, theta) = (self.translation, self.rotation);

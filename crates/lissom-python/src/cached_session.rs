@@ -57,7 +57,7 @@ impl CachedSession {
         self.news().map(with_code).filter(|warning| !known.contains(warning)).collect()
     }
 
-    /// Of one column. Columns that need nothing but positions are evaluated alone.
+    /// Value of one column. Columns that need nothing but positions are evaluated alone.
     pub(crate) fn value(&mut self, column: usize) -> f64 {
         if self.are_current || self.session.recovers(column) {
             return self.values()[column];
@@ -65,7 +65,7 @@ impl CachedSession {
         self.session.column_value(column)
     }
 
-    /// Of all columns.
+    /// Values of all columns.
     pub(crate) fn values(&mut self) -> &[f64] {
         if !self.are_current {
             self.values.clear();

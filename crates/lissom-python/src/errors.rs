@@ -110,7 +110,7 @@ pub(crate) fn of_input(error: &InputError) -> PyErr {
     }
 }
 
-/// The same of a failure that was stored.
+/// The exception of a failure that was stored.
 pub(crate) fn of_failure((text, diagnostic): &(String, Diagnostic)) -> PyErr {
     with(SolutionError::new_err(text.clone()), diagnostic)
 }

@@ -18,7 +18,7 @@ pub(crate) enum JointValues<'py> {
     Ordered(PyArrayLikeDyn<'py, f64, AllowTypeChange>),
 }
 
-/// The same for one or several simulations: a row for each.
+/// Values of joint coordinates of one or several simulations: a row for each.
 #[derive(Default)]
 pub(crate) struct Rows {
     names: Vec<String>,

@@ -23,7 +23,7 @@ fn sum(a: f64, b: f64) -> (f64, f64) {
     (total, (a - (total - second)) + (b - second))
 }
 
-/// The same for `|a| ≥ |b|`.
+/// `a + b` and its rounding error for `|a| ≥ |b|`.
 #[inline]
 fn ordered_sum(a: f64, b: f64) -> (f64, f64) {
     let total = a + b;

@@ -32,7 +32,7 @@ pub(crate) fn array<S, const COUNT: usize>(slice: &[S], at: usize) -> &[S; COUNT
     slice[at..at + COUNT].try_into().expect("a slice of that length")
 }
 
-/// The same, mutable.
+/// `COUNT` mutable numbers of a slice, from a position on.
 #[inline(always)]
 pub(crate) fn array_mut<S, const COUNT: usize>(slice: &mut [S], at: usize) -> &mut [S; COUNT] {
     (&mut slice[at..at + COUNT]).try_into().expect("a slice of that length")

@@ -19,7 +19,7 @@ pub enum Need {
 
 /// A quantity that is accumulated from step to step; zero at the start.
 pub trait Accumulated: Send + Sync {
-    /// Its name in the model.
+    /// Name of the quantity in the model.
     fn name(&self) -> &str;
 
     /// Whether it depends on multipliers. Default: it does not.
@@ -27,7 +27,7 @@ pub trait Accumulated: Send + Sync {
         false
     }
 
-    /// Its value at the end of a step, from the one at its start; not finite if it cannot be determined.
+    /// Value of the quantity at the end of a step, from the one at its start; not finite if it cannot be determined.
     fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64;
 }
 

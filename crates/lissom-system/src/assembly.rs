@@ -64,7 +64,7 @@ impl System {
         self.add_others(point, out);
     }
 
-    /// The same on several threads, to the last bit.
+    /// Computes the [`residual`](Self::residual) on several threads, equal to the last bit.
     pub fn residual_side_by_side(&self, point: &Point<'_>, threads: &mut Threads, out: &mut [f64]) {
         out.fill(0.0);
         for batch in &self.batches {
@@ -120,7 +120,7 @@ impl System {
         out.scratch = Some(scratch);
     }
 
-    /// The same for constraints, and for those kinds of elements only that `kinds` selects.
+    /// Linearisation of the constraints, and of those kinds of elements only that `kinds` selects.
     pub fn linearize_kinds(
         &self,
         kinds: &[bool],

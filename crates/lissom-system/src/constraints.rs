@@ -90,7 +90,7 @@ impl Constraints {
         all.flat_map(|family| (0..family.count()).map(move |index| family.member(index)))
     }
 
-    /// Those that are not evaluated in lanes.
+    /// All constraints that are not evaluated in lanes.
     pub(crate) fn others(&self) -> impl Iterator<Item = &dyn Constraint> {
         let all = self.families().into_iter().skip(1);
         all.flat_map(|family| (0..family.count()).map(move |index| family.member(index)))

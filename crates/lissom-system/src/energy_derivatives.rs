@@ -174,7 +174,7 @@ fn strain_slopes(element: &dyn Element, fall: &Kinematics, out: &mut [f64]) {
     }
 }
 
-/// The same configuration without velocities; `acceleration` is that of a node.
+/// Configuration `at` without velocities; `acceleration` is that of a node.
 fn stopped(at: &Kinematics, acceleration: impl Fn(&Kinematics, NodeId) -> Vector6) -> Kinematics {
     let mut stopped = at.clone();
     for (id, node) in NodeId::enumerate(&mut stopped.nodes) {

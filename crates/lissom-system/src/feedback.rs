@@ -321,7 +321,7 @@ impl System {
 pub struct ScaledPower<'s> {
     /// The signal.
     pub signal: SignalId,
-    /// Its value.
+    /// Value of the signal.
     pub size: f64,
     /// Power of the unit load [W].
     pub unit: f64,

@@ -381,7 +381,7 @@ impl System {
         self.elements_with(|own| own.laws).for_each(|element| element.switches(at, out));
     }
 
-    /// The same for the elements with a function that is wanted, from the index `first` of `out` on; others keep their values.
+    /// Updates the [`switches`](Self::switches) of elements with a function that is wanted, from the index `first` of `out` on; others keep
     pub fn update_switches(
         &self,
         at: &Kinematics,

@@ -9,7 +9,7 @@ use super::System;
 /// The mass matrix of an element with mass of its own.
 #[derive(Clone, Copy)]
 pub struct Mass<'a> {
-    /// Its nodes.
+    /// Nodes of the element.
     pub nodes: &'a [NodeId],
     /// Row of each local unknown.
     pub rows: &'a [u32],
@@ -36,7 +36,7 @@ impl System {
         self.each_own_mass(at, |_, mass| each(mass));
     }
 
-    /// The same with the elements.
+    /// Passes every element that has a mass matrix, and the matrix, to `each`.
     pub(crate) fn each_own_mass(&self, at: &Kinematics, mut each: impl FnMut(&dyn OwnInertia, &Mass<'_>)) {
         let mut matrix = Vec::new();
         for batch in &self.batches {

@@ -8,7 +8,7 @@ use lissom_mechanics::kinematics::DiscreteValueId;
 
 /// A number that depends on the whole state.
 pub trait Quantity: Send + Sync {
-    /// Its value [SI].
+    /// Value of the quantity [SI].
     fn value(&self, system: &System, state: &State) -> f64;
 }
 

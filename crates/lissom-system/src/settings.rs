@@ -46,10 +46,10 @@ pub struct StepControl {
 /// Whose errors determine adaptive steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Controlled {
-    /// Those of positions, velocities and states.
+    /// Errors of positions, velocities and states.
     #[default]
     Positions,
-    /// Those of accelerations and forces too, relative to the largest acceleration: steps resolve every vibration that
+    /// Errors of accelerations and forces too, relative to the largest acceleration: steps resolve every vibration that
     /// contributes to them.
     Forces,
 }
@@ -94,7 +94,7 @@ impl ScaleBy {
     /// Names in the model file.
     pub const NAMES: &'static [&'static str] = &["physical", "unit", "none"];
 
-    /// Its name in the model file.
+    /// Name of the choice in the model file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Physical => "physical",
@@ -113,7 +113,7 @@ pub struct ScalingChoice {
     pub equilibrated: bool,
     /// Whether the augmented Lagrangian term is included.
     pub augmented: bool,
-    /// Its factor p [-].
+    /// Factor p of the augmented term [-].
     pub penalty: f64,
 }
 

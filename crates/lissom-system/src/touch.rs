@@ -34,13 +34,13 @@ pub struct Touch {
     pub point: [f64; 3],
     /// Force on the second part [N].
     pub force: [f64; 3],
-    /// Its tangential part [N].
+    /// Tangential part of the force [N].
     pub friction: [f64; 3],
-    /// Its part along the normal [N].
+    /// Part of the force along the normal [N].
     pub normal: f64,
     /// Tangential deflection [m].
     pub bristle: [f64; 3],
-    /// Its stiffness [N/m].
+    /// Stiffness of the tangential deflection [N/m].
     pub stiffness: f64,
     /// Penetration without force: that with which the touch appeared [m].
     pub relief: f64,

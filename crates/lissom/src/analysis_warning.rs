@@ -16,7 +16,7 @@ pub enum AnalysisWarning {
     At {
         /// The varied number.
         path: String,
-        /// Its value.
+        /// Value of the number.
         value: f64,
         /// The warning.
         warning: Box<Self>,
@@ -79,7 +79,7 @@ pub enum AnalysisWarning {
         line: usize,
         /// The varied number.
         path: String,
-        /// Its value.
+        /// Value of the number.
         value: f64,
         /// The correlation of the shapes.
         correlation: f64,
@@ -141,7 +141,7 @@ pub enum AnalysisWarning {
     Redundant {
         /// The joint.
         joint: String,
-        /// Its equation.
+        /// Equation of the joint.
         equation: String,
         /// The joints from which it follows, and the direction that it repeats, in words.
         follows: String,
@@ -149,7 +149,7 @@ pub enum AnalysisWarning {
 }
 
 impl AnalysisWarning {
-    /// Its code, as in `lissom explain`.
+    /// Code of the warning, as in `lissom explain`.
     pub fn code(&self) -> &'static str {
         self.diagnostic().code
     }

@@ -7,7 +7,7 @@ use lissom_core::diagnostics::Diagnose;
 #[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum CommandError {
-    /// Its arguments contradict each other or what they name.
+    /// The arguments contradict each other or what they name.
     Request(String),
     /// Members of a sweep have no solution.
     Members {

@@ -21,7 +21,7 @@ pub struct AnyId {
 pub struct ForeignId(&'static str);
 
 impl ForeignId {
-    /// Its kind, such as `body`.
+    /// Kind of the entry, such as `body`.
     pub(crate) fn kind(self) -> &'static str {
         self.0
     }
@@ -43,7 +43,7 @@ macro_rules! tables {
         }
 
         impl Table {
-            /// Its name in a model file.
+            /// Name of the table in a model file.
             pub(crate) fn word(self) -> &'static str {
                 match self {
                     $(Self::$table => $word),*

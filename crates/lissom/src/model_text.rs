@@ -101,7 +101,7 @@ impl Model {
         Self { name: name.to_owned(), text: text.into(), library, left_out, overrides, ids: None }
     }
 
-    /// The same model with a new value at a path, such as `analysis.step` or `bodies.top.mass`. A text is a name or an expression
+    /// This model with a new value at a path, such as `analysis.step` or `bodies.top.mass`. A text is a name or an expression
     /// of the model file. Errors are reported when the model is used.
     ///
     /// ```
@@ -112,19 +112,19 @@ impl Model {
         self.with_overrides(&[(path.to_owned(), value.into().0)])
     }
 
-    /// The same model with further overrides, whose values are TOML; a value that is no TOML is a text.
+    /// This model with further overrides, whose values are TOML; a value that is no TOML is a text.
     pub fn with_overrides(&self, overrides: &[Override]) -> Self {
         let mut model = self.clone();
         model.overrides.extend_from_slice(overrides);
         model
     }
 
-    /// The same model with further overrides, which are applied before its own.
+    /// This model with further overrides, which are applied before its own.
     pub(crate) fn over(&self, overrides: &[Override]) -> Self {
         Self { overrides: [overrides, &self.overrides].concat(), ..self.clone() }
     }
 
-    /// The same model without the value or entry at a path, such as `analysis.step` or `springs.damper`. It is omitted before
+    /// This model without the value or entry at a path, such as `analysis.step` or `springs.damper`. It is omitted before
     /// overrides are applied.
     pub fn without(&self, path: &str) -> Self {
         let mut model = self.clone();
@@ -132,7 +132,7 @@ impl Model {
         model
     }
 
-    /// Its overrides, in the order in which they are applied.
+    /// Overrides of the model, in the order in which they are applied.
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
     }
@@ -142,18 +142,18 @@ impl Model {
         &self.left_out
     }
 
-    /// The same with the names of ids of a builder.
+    /// This model with the names of ids of a builder.
     pub(crate) fn with_ids(self, ids: IdNames) -> Self {
         Self { ids: Some(Arc::new(ids)), ..self }
     }
 
-    /// The same with known texts of included files, by path; no other file is read.
+    /// This model with known texts of included files, by path; no other file is read.
     #[must_use]
     pub fn with_included(self, texts: BTreeMap<String, String>) -> Self {
         Self { library: Arc::new(Library::of_texts(texts)), ..self }
     }
 
-    /// The same with texts of files that it may include, by path, as returned by [`included`](Self::included) on another
+    /// This model with texts of files that it may include, by path, as returned by [`included`](Self::included) on another
     /// machine; others are searched for as before.
     #[must_use]
     pub fn with_known(self, texts: BTreeMap<String, String>) -> Self {

@@ -17,7 +17,7 @@ pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
     three_schemes(studio, "0.1", "convergence-tip-crank")
 }
 
-/// The same to 0.4 s, through the buckling and back.
+/// The three schemes of the source to 0.4 s, through the buckling and back.
 pub(super) fn tip_crank_long(studio: &Studio) -> Result<Fragment, BookError> {
     three_schemes(studio, "0.4", "convergence-tip-crank-long")
 }
@@ -51,7 +51,7 @@ pub(super) fn components(studio: &Studio) -> Result<Fragment, BookError> {
     each_component(studio, &[])
 }
 
-/// The same with a drive that starts smoothly.
+/// The three components of the displacement, separately, with a drive that starts smoothly.
 pub(super) fn smooth_start(studio: &Studio) -> Result<Fragment, BookError> {
     each_component(studio, &[("joints.drive.rotation", "\"0.12*sin(pi*t/0.2)^6\"")])
 }

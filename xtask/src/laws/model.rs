@@ -44,9 +44,9 @@ pub(super) struct Case {
     /// The law over its argument, as an expression of `U`.
     expression: String,
     shape: Shape,
-    /// Its first and second derivative; for relations alone.
+    /// First and second derivative of the expression; for relations alone.
     derivatives: Option<[Shape; 2]>,
-    /// Its smallest length.
+    /// Smallest length of the case.
     pub(super) width: f64,
     /// The law is multiplied by 1 - b v.
     by_velocity: f64,

@@ -28,7 +28,7 @@ const SHOWN: usize = 40;
 /// A program with tests, or one module of it.
 #[derive(Clone, Debug)]
 pub(super) struct TestProgram {
-    /// Its crate and name, and the name of the module.
+    /// Crate and name of the program, and the name of the module.
     pub(super) name: String,
     pub(super) executable: PathBuf,
     /// The folder in which it runs.

@@ -45,7 +45,7 @@ pub(super) struct Mutant {
 }
 
 impl Mutant {
-    /// The same for the same change as long as neither file nor function get other names.
+    /// Key that is the same for the same change as long as neither file nor function get other names.
     pub(super) fn key(&self) -> String {
         format!("{}: {}", self.file, self.what)
     }

@@ -123,7 +123,7 @@ impl Switched {
 /// Files by their paths from the project's folder on.
 #[derive(Default)]
 pub(super) struct Files {
-    /// Those with mutants in them.
+    /// Files with mutants in them.
     pub(super) parts: BTreeMap<PathBuf, Switched>,
     /// Texts of these and of the crates' files that change with them.
     pub(super) texts: BTreeMap<PathBuf, String>,

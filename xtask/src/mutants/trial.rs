@@ -60,7 +60,7 @@ struct Unbroken {
     built: u64,
     /// How long it runs [s].
     seconds: f64,
-    /// Its tests.
+    /// Tests of the program.
     tests: BTreeSet<String>,
     /// Threads that reach a mutant, by its number. Each test runs in a thread of its name.
     reached: BTreeMap<usize, BTreeSet<String>>,

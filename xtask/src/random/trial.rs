@@ -33,7 +33,7 @@ pub(super) enum Finding {
     Failed(String),
     /// This scheme ended well beside the reference without a warning.
     Wrong(String),
-    /// The same where something turns so fast that the step does not resolve it.
+    /// This scheme ended well beside the reference where something turns so fast that the step does not resolve it.
     Coarse(String),
     /// This scheme warned though it was right.
     FalseAlarm(String),

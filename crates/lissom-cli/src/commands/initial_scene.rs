@@ -19,7 +19,7 @@ pub(super) struct InitialScene {
     pub(super) name: String,
     /// One line of description; empty for none.
     pub(super) title: String,
-    /// Its drawing.
+    /// Drawing of the scene.
     pub(super) scene: Scene,
     /// A motion file of one frame.
     pub(super) motion: Vec<u8>,

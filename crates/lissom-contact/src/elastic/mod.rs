@@ -69,7 +69,7 @@ pub enum Dissipation {
 pub struct ContactFriction {
     /// Deflection of the bristles in the axes of the base.
     pub bristles: Vec<CoordinateId>,
-    /// Its limit.
+    /// Limit of the friction.
     pub law: Coulomb,
     /// Deflection at which the bristles slip, z_c [m].
     pub deflection: f64,
@@ -94,7 +94,7 @@ pub(super) struct Share {
 pub(super) const STATES: usize = 3;
 
 impl ContactFriction {
-    /// The same with bristles that are states of the contribution, by this name and a number.
+    /// Friction with bristles that are states of the contribution, by this name and a number.
     pub fn with_bristles(&self, name: &str, contribution: &mut Contribution) -> Self {
         let state = |k: usize| contribution.add_state(format!("{name} {k}"), 0.0, self.deflection);
         Self { bristles: (1..=STATES).map(state).collect(), ..*self }
@@ -194,7 +194,7 @@ pub struct Contact {
 pub struct ContactMotion(Contact);
 
 impl ContactMotion {
-    /// Of this contact.
+    /// States of this contact.
     pub fn new(contact: &Contact) -> Self {
         Self(Contact { friction: None, resistance: None, bristles: Vec::new(), ..contact.clone() })
     }
@@ -277,20 +277,20 @@ impl Contact {
         Self { name, point, compliance, dissipation, friction, resistance, bristles, switch_states }
     }
 
-    /// The same with the name that warnings contain.
+    /// Sets the name that warnings contain.
     pub fn with_name(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
         self
     }
 
-    /// The same with resistance to rolling and spinning.
+    /// Adds resistance to rolling and spinning.
     pub fn with_resistance(mut self, resistance: ContactResistance) -> Self {
         self.bristles.extend(&resistance.bristles.bristles);
         self.resistance = Some(resistance);
         self
     }
 
-    /// The same with a surface that moves along itself.
+    /// Adds a surface that moves along itself.
     pub fn with_surface(mut self, surface: MovingSurface) -> Self {
         self.point.surface = Some(surface);
         self

@@ -71,7 +71,7 @@ impl ContactResistance {
         0.5 * self.stiffness() * deflection.norm_squared()
     }
 
-    /// Its second derivative with respect to the deflection.
+    /// Second derivative of the energy with respect to the deflection.
     pub(super) fn stiffness(&self) -> f64 {
         self.rolling.max(self.spinning) / self.bristles.deflection
     }

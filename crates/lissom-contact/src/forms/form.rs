@@ -43,9 +43,9 @@ pub struct Triangles {
 /// A form at its position in a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedSolid {
-    /// Its form.
+    /// Form of the solid.
     pub form: Form,
-    /// Its axes in those of the part; the third is the axis of a round one and the normal of a plane.
+    /// Axes of the solid in those of the part; the third is the axis of a round one and the normal of a plane.
     pub frame: Motion,
 }
 
@@ -75,7 +75,7 @@ kinds! {
 }
 
 impl Form {
-    /// Its kind.
+    /// Kind of the form.
     pub fn kind(&self) -> FormKind {
         match self {
             Self::Solid(Solid::Box(_)) => FormKind::Box,
@@ -93,7 +93,7 @@ impl Form {
         }
     }
 
-    /// Its surface, that of a box, a hull or a cylinder with edges of this radius [m]; none where the distance from it is not known.
+    /// Surface of the form, for a box, a hull or a cylinder with edges of this radius [m]; none where the distance from it is not known.
     ///
     /// # Errors
     /// If it is a mesh that encloses no solid.
@@ -176,7 +176,7 @@ impl Form {
     }
 }
 
-/// The same of a round form, by the sum of both radii or the radius of the bore.
+/// Spacing for a round form, by the sum of both radii or the radius of the bore.
 pub fn spacing_of_rounds(radius: f64) -> f64 {
     MAX_ANGLE * radius
 }

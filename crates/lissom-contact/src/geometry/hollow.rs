@@ -95,7 +95,7 @@ mod tests {
         }
     }
 
-    /// Of smooth surfaces only the hollows that are narrower than the ball: here a cosine with a smallest radius of 1.
+    /// Smooth surfaces have only the hollows that are narrower than the ball: here a cosine with a smallest radius of 1.
     #[test]
     fn smooth_hollows_are_those_narrower_than_the_ball() {
         let height = |x: f64| -0.1 * (10.0_f64.sqrt() * x).cos();

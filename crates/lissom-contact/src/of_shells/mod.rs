@@ -43,18 +43,18 @@ pub struct ShellContact {
     /// Node of the ball, and its centre in its axes [m].
     ball: (NodeId, Vector3),
     patch: ContactPatch,
-    /// Of the ball plus half the thickness, and half the thickness [m].
+    /// Radius of the ball plus half the thickness, and half the thickness [m].
     radius: f64,
     half_thickness: f64,
     compliance: Compliance,
     /// Relative increase of the normal force per penetration velocity [s/m].
     dissipation: f64,
     friction: Option<ContactFriction>,
-    /// Of all elements of the contact.
+    /// Bristles of all elements of the contact.
     bristles: Vec<CoordinateId>,
     /// Whether the rates of the bristles are in its equations.
     has_rates: bool,
-    /// Its nodes without the ground.
+    /// Nodes of the contact without the ground.
     nodes: Vec<NodeId>,
     switch_states: SwitchStates,
 }

@@ -59,7 +59,7 @@ pub(super) struct Spot<T> {
 }
 
 impl<T: Number> Patch<T> {
-    /// Its point at r and s.
+    /// Point of the patch at r and s.
     pub(super) fn at(&self, [r, s]: [T; 2]) -> Spot<T> {
         let linear = CORNERS.map(|(a, b)| [r.scaled(0.5 * a).plus(0.5), s.scaled(0.5 * b).plus(0.5)]);
         let shapes = linear.map(|[u, v]| u * v);

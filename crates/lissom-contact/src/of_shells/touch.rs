@@ -25,7 +25,7 @@ pub(super) struct Overlap {
     pub(super) has_edge: bool,
 }
 
-/// Those at the edges r = -1, 1 and s = -1, 1.
+/// Overlaps at the edges r = -1, 1 and s = -1, 1.
 pub(super) type Overlaps = [[Option<Overlap>; 2]; 2];
 
 /// The point of an element that is nearest to a centre.

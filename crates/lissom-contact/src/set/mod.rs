@@ -18,7 +18,7 @@ use lissom_mechanics::kinematics::{Kinematics, NodeId};
 /// A part of the set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TouchingPart {
-    /// Its node.
+    /// Node of the part.
     pub node: NodeId,
     /// What touches.
     pub solids: Vec<PlacedSolid>,
@@ -53,7 +53,7 @@ pub struct TouchLaw {
 pub struct ContactRule {
     /// Name of the contact.
     pub name: String,
-    /// Its parts among those of the set, each once; of two parts the earlier one is the base.
+    /// Parts of the contact among those of the set, each once; of two parts the earlier one is the base.
     pub parts: Vec<usize>,
     /// Law of its touches; a moving surface is that of the first part.
     pub law: TouchLaw,

@@ -34,7 +34,7 @@ pub struct NearPairs {
 }
 
 impl NearPairs {
-    /// Of the parts of a set.
+    /// Search among the parts of a set.
     pub fn new(set: &ContactSet) -> Self {
         let radii: Vec<f64> = set.parts.iter().map(|part| part.radius).collect();
         let mut rules = vec![Vec::new(); set.parts.len()];

@@ -10,12 +10,12 @@ pub struct SmallestGap {
     rule: usize,
     /// Pairs with a part without bounds, and their points.
     unbounded: Vec<([usize; 2], Vec<PlacedMeeting>)>,
-    /// Its parts with bounds.
+    /// Parts of the contact with bounds.
     bounded: Vec<usize>,
 }
 
 impl SmallestGap {
-    /// Of the contact of this index.
+    /// Smallest gap of the contact of this index.
     pub fn new(set: &ContactSet, rule: usize) -> Self {
         let parts = &set.rules[rule].parts;
         let is_bounded = |part: usize| set.parts[part].radius.is_finite();

@@ -7,9 +7,9 @@ use crate::system::System;
 
 /// A rigid body of the assembly.
 pub(super) struct RigidGroup {
-    /// Its nodes, and their frames relative to the group's.
+    /// Nodes of the body, and their frames relative to the group's.
     pub(super) nodes: Vec<(NodeId, Motion)>,
-    /// Its frame as modelled: at the centre of its points, with the axes of its first node.
+    /// Frame of the body as modelled: at the centre of its points, with the axes of its first node.
     pub(super) frame: Motion,
     /// ρ, root mean square distance of its points from their centre [m].
     pub(super) radius: f64,

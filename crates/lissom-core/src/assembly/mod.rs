@@ -55,9 +55,9 @@ pub struct Request<'a> {
 pub struct Gap {
     /// Name of the joint.
     pub joint: String,
-    /// Its violated lengths, as one distance [m]; none if they are satisfied.
+    /// Violated lengths of the joint, as one distance [m]; none if they are satisfied.
     pub distance: Option<f64>,
-    /// Its violated angles, as one angle [rad]; none if they are satisfied.
+    /// Violated angles of the joint, as one angle [rad]; none if they are satisfied.
     pub angle: Option<f64>,
 }
 

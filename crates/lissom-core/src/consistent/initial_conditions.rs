@@ -186,7 +186,7 @@ impl ConsistentInitialConditions {
         self.reduce_to_least_norm(&mut right[count..]);
     }
 
-    /// The same once, with any multipliers.
+    /// Solves [M Bᵀ; B 0] [x; λ] = `right` once, in place, with any multipliers.
     pub(super) fn solve_once(&mut self, system: &System, right: &mut [f64]) {
         self.redundancy.remove_misfit(&mut right[system.layout().coordinate_count()..]);
         self.solve_scaled(system, right);
@@ -470,7 +470,7 @@ impl ConsistentInitialConditions {
         self.repeated(system, without_accelerations(system.layout(), state))
     }
 
-    /// The same for a motion without accelerations. If forces depend on multipliers, they are found by fixed-point iteration, because
+    /// Accelerations and multipliers without known accelerations. If forces depend on multipliers, fixed-point iteration is used, because
     /// friction is small compared with normal forces.
     pub(super) fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
         let count = system.layout().coordinate_count();

@@ -92,7 +92,7 @@ impl ConsistentInitialConditions {
         Ok(None)
     }
 
-    /// The same with the last factor, and the number of corrections; none if they do not decrease to round-off.
+    /// Changes with the last factor, and the number of corrections; none if they do not decrease to round-off.
     fn corrections(
         &mut self,
         system: &System,

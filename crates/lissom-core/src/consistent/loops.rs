@@ -24,7 +24,7 @@ pub(crate) fn of(system: &System) -> Vec<Loop> {
     from(system, kept(system, &[Level::Position]))
 }
 
-/// The same with constraints of velocities.
+/// Closed loops of a system, also through constraints of velocities.
 pub(crate) fn of_all_levels(system: &System) -> Vec<Loop> {
     from(system, kept(system, &[Level::Position, Level::Velocity]))
 }
@@ -217,7 +217,7 @@ impl Loop {
         }
     }
 
-    /// Its constraints with the first equation of each.
+    /// Constraints of the loop with the first equation of each.
     pub(crate) fn constraints<'s>(
         &'s self,
         system: &'s System,

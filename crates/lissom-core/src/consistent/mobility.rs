@@ -53,7 +53,7 @@ pub struct Redundant {
 struct Reduced {
     pivot: usize,
     entries: BTreeMap<usize, f64>,
-    /// Its multiplier.
+    /// Multiplier of the row.
     multiplier: usize,
     /// Earlier reduced rows that were subtracted, with their factors.
     used: Vec<(usize, f64)>,

@@ -34,7 +34,7 @@ pub(crate) const GEOMETRIC_TOLERANCE: f64 = 1e-5;
 const PIVOTS: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, GEOMETRIC_TOLERANCE * GEOMETRIC_TOLERANCE];
 /// Curvature of a violation along a velocity, relative to that of a rotation, above which equations are dependent at one position only.
 const CURVED: f64 = 1e-3;
-/// The same for equations that are out of line, which curves violations by as much.
+/// Curvature of a violation for equations that are out of line, which curves violations by as much.
 const CURVED_OUT_OF_LINE: f64 = 1e-1;
 /// Largest angle that is taken for an inaccuracy of the geometry [rad], and number of joints among which it is looked for: the motion of a
 /// large mechanism is small at each of its joints.
@@ -65,7 +65,7 @@ pub(crate) struct Redundancy {
 /// A constraint that would depend on others if its geometry were exact, and holds what they leave free.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OutOfLine {
-    /// Its joint.
+    /// Joint of the constraint.
     pub(crate) joint: Subject,
     /// The joints on which it would depend.
     pub(crate) others: Subject,
@@ -207,7 +207,7 @@ impl Redundancy {
         self.follow_to((system, at), false)
     }
 
-    /// The same at an iterate of a step, for its tangent: equations in axes that rotate in the step, such as those of a screw, may be
+    /// Selects again at an iterate of a step, for its tangent: equations in axes that rotate in the step, such as those of a screw, may be
     /// redundant at its start, and the only independent ones at its end.
     pub(crate) fn follow_iterate(&mut self, system: &System, at: &Kinematics) -> bool {
         self.follow_to((system, at), true)
@@ -656,7 +656,7 @@ impl Work {
         stresses
     }
 
-    /// The same in memory of before.
+    /// Computes the self-stresses in storage that is used again.
     fn find_stresses(&mut self, omitted: &[usize], stresses: &mut DMatrix<f64>) {
         let Self { norms, units, acting, square, factor, shares, .. } = self;
         let count = acting.len();

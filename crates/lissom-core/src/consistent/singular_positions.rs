@@ -173,7 +173,7 @@ impl Known {
         self.follow(time, (equation, equation), size)
     }
 
-    /// The same for redundant equations, from the eigenvalues of B Bᵀ in descending order.
+    /// Time and equation of a singular position of redundant equations, from the eigenvalues of B Bᵀ in descending order.
     fn compare_repeating(&mut self, time: f64, pivots: &[f64], eigenvalues: &[f64]) -> Option<(f64, usize)> {
         let rank = self.rank();
         if let Some(equation) =

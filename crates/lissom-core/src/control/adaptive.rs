@@ -67,7 +67,7 @@ pub(crate) struct Adaptive {
     bound: f64,
     /// Size of the attempt reviewed last over that of a step with the largest allowed error.
     excess: f64,
-    /// Its size [s], and the extent of its motion.
+    /// Size of the attempt reviewed last [s], and the extent of its motion.
     reviewed: f64,
     reached: Extent,
 }

@@ -42,7 +42,7 @@ pub(super) struct Neighbour {
     pub(super) system: Arc<System>,
     /// Finite-difference weight of its residuals.
     pub(super) weight: f64,
-    /// Its representative length [m].
+    /// Representative length of the neighbour [m].
     pub(super) length: f64,
 }
 

@@ -61,7 +61,7 @@ diagnostics! {
         VelocityImpossible {
             /// Name of the node.
             part: Subject,
-            /// Its velocities in words.
+            /// Velocities of the node in words.
             given: String,
         } => "velocity-impossible" {
             subject: part,

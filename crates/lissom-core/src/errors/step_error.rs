@@ -60,9 +60,9 @@ diagnostics! {
             time: f64,
             /// Name of the joint.
             joint: String,
-            /// Its kind.
+            /// Kind of the joint.
             kind: &'static str,
-            /// Its equation.
+            /// Equation of the joint.
             equation: &'static str,
             /// Angle of the relative rotation of its parts [degrees].
             angle: f64,
@@ -185,7 +185,7 @@ diagnostics! {
             time: f64,
             /// The function, in words.
             what: Subject,
-            /// Its value, or that of its derivative.
+            /// Value of the function, or that of its derivative.
             value: f64,
             /// Where [s].
             at: f64,
@@ -238,7 +238,7 @@ diagnostics! {
             time: f64,
             /// The coordinate or node that moves fastest.
             fastest: Subject,
-            /// Its velocity [m/s, rad/s].
+            /// Velocity of this coordinate or node [m/s, rad/s].
             rate: f64,
         } => "motion-diverges" {
             time: *time,
@@ -289,7 +289,7 @@ diagnostics! {
             time: f64,
             /// Name of the slider.
             joint: String,
-            /// Its coordinate [m].
+            /// Coordinate of the slider [m].
             place: f64,
             /// Length of the beam [m].
             length: f64,
@@ -424,7 +424,7 @@ pub(crate) const SMALLER: &str = "try a smaller step";
 /// What to try when a step has no solution even in the smallest parts.
 pub(crate) const NO_PART_CONVERGES: &str = "substeps of a thousandth of it and less fail as well, so a smaller `step` is unlikely to help: \
      check for a force that jumps or grows without bound, for inconsistent units, for a joint that locks, and for a small `max_iterations`";
-/// The same where numbers are not finite.
+/// What to try when numbers are not finite even in the smallest parts of a step.
 pub(crate) const NO_PART_IS_FINITE: &str = "this also occurs in its shortest substeps, so a smaller `step` is unlikely to help: check for a \
      force that grows without bound, for masses or stiffnesses of very different magnitude, and for inconsistent units";
 

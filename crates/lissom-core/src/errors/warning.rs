@@ -137,7 +137,7 @@ diagnostics! {
             time: f64,
             /// The switch.
             what: Subject,
-            /// Its effect.
+            /// Effect of the switch.
             effect: String,
         } => "contact-too-short" {
             time: *time,
@@ -272,7 +272,7 @@ diagnostics! {
             time: f64,
             /// Energy lost between touches [J].
             lost: f64,
-            /// The same over the energy exchanged.
+            /// Energy lost between touches over the energy exchanged.
             share: f64,
             /// The part that loses most.
             part: Subject,
@@ -451,11 +451,11 @@ diagnostics! {
         RopeSlack {
             /// The start [s].
             time: f64,
-            /// Its parts.
+            /// Parts of the rope.
             parts: String,
             /// How much longer it is than the way along its points [m].
             slack: f64,
-            /// Its length [m].
+            /// Length of the rope [m].
             length: f64,
         } => "rope-slack" {
             time: *time,
@@ -749,7 +749,7 @@ diagnostics! {
         Model {
             /// The part.
             part: Subject,
-            /// Its text.
+            /// Text of the warning.
             message: String,
             /// The remedy; may be empty.
             help: String,

@@ -21,7 +21,7 @@ use crate::system::{State, System};
 
 /// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions leave some 1e-14.
 const MAX_VIOLATION: f64 = 1e-5;
-/// The same for redundant constraints: ten times the geometric tolerance to which they may depend on others, which may grow in a motion.
+/// Violation of redundant constraints: ten times the geometric tolerance to which they may depend on others, which may grow in a motion.
 const MAX_MISFIT: f64 = 10.0 * GEOMETRIC_TOLERANCE;
 /// Violation above which a warning is given, relative to the representative length, or in radians. Rates of constraints that remain
 /// at the start above this fraction of the largest one contradict each other.

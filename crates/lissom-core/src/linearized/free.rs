@@ -68,7 +68,7 @@ impl LinearModel<'_> {
         })
     }
 
-    /// The same with s² = `square`; none if it is too small for constraints to be satisfied.
+    /// Softest motion with s² = `square`; none if it is too small for constraints to be satisfied.
     fn softest_motion_at(&self, square: f64) -> Option<Vec<f64>> {
         let (pattern, count) = (self.pattern(), self.coordinate_count());
         let mut parts = self.parts.clone();

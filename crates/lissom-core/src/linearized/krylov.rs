@@ -43,7 +43,7 @@ pub(super) fn conjugate<S: Scalar>(value: S) -> S {
     S::from_parts(real, -imaginary)
 }
 
-/// The same number as a complex one.
+/// Converts a number to a complex one.
 pub(super) fn complex<S: Scalar>(value: S) -> Complex64 {
     let [real, imaginary] = value.parts();
     Complex64::new(real, imaginary)
@@ -74,7 +74,7 @@ pub(super) fn add<S: Scalar>(y: &mut [S], factor: S, x: &[S]) {
 /// The basis, and the operator in it.
 pub(super) struct Krylov<S> {
     pub(super) basis: Vec<Vec<S>>,
-    /// The same, weighted; empty if the inner product is not weighted.
+    /// Basis vectors, weighted; empty if the inner product is not weighted.
     weighted: Vec<Vec<S>>,
     /// Columns of the operator's matrix in the basis, as long as the basis was when they were computed.
     pub(super) columns: Vec<Vec<S>>,
@@ -176,7 +176,7 @@ impl<S: Scalar> Krylov<S> {
         sum
     }
 
-    /// The same with complex weights.
+    /// Σ_j y_j v_j with complex weights.
     pub(super) fn combine_complex(&self, weights: &[Complex64]) -> Vec<Complex64> {
         let mut sum = vec![Complex64::default(); self.image.len()];
         for (&weight, vector) in weights.iter().zip(&self.basis) {
@@ -192,7 +192,7 @@ impl<S: Scalar> Krylov<S> {
         self.residual_of(weights, |entry| entry)
     }
 
-    /// The same with complex weights.
+    /// Norm of the component of the operator's image outside the known vectors, for complex weights.
     pub(super) fn complex_residual(&self, weights: &[Complex64]) -> f64 {
         self.residual_of(weights, complex)
     }

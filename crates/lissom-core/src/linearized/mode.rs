@@ -33,7 +33,7 @@ pub enum ModeKind {
 }
 
 impl ModeKind {
-    /// Its name in `modes.csv`.
+    /// Name of the kind in `modes.csv`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
@@ -59,7 +59,7 @@ pub struct Mode {
     pub frequency: f64,
     /// Damping ratio -Re s/|s|: 1 for a decay, -1 for a divergence. 0 for a rigid mode.
     pub damping: f64,
-    /// Its kind.
+    /// Kind of the mode.
     pub kind: ModeKind,
     /// Body-frame displacements and rotations of the nodes and changes of the coordinates by row, normalised to unit modal
     /// mass ηᴴMη = 1 kg if the mode has mass.
@@ -82,7 +82,7 @@ pub enum Completeness {
 }
 
 impl Completeness {
-    /// Its name in `summary.json`.
+    /// Name of the completeness in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Counted => "counted",

@@ -236,7 +236,7 @@ impl<'a> LinearModel<'a> {
         if self.is_at_rest { Ok(()) } else { refuse(self.system) }
     }
 
-    /// The same model with matrices in axes at rest.
+    /// This model with matrices in axes at rest.
     pub(super) fn with_generator(
         &self,
         parts: Linearization,

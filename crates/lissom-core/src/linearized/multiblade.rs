@@ -56,7 +56,7 @@ impl NoMultiblade {
 }
 
 impl<'a> LinearModel<'a> {
-    /// The same model in axes at rest, with the multi-blade coordinates of its rotor: the frequencies of its modes are those
+    /// This model in axes at rest, with the multi-blade coordinates of its rotor: the frequencies of its modes are those
     /// in these axes. They are valid only if [`departure_of`](Self::departure_of) confirms them.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl<'a> LinearModel<'a> {
         Ok(self.in_axes_of(generator(self)?))
     }
 
-    /// The same model in other axes.
+    /// This model in other axes.
     pub(super) fn in_axes_of(&self, generator: Generator) -> LinearModel<'a> {
         let pattern = self.pattern();
         let (mut damping, mut stiffness) = (BTreeMap::new(), BTreeMap::new());

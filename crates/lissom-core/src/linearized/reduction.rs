@@ -107,7 +107,7 @@ impl From<ModeError> for ReductionError {
 /// A reduced assembly.
 #[derive(Clone, Debug)]
 pub struct Reduction {
-    /// Its matrices: six unknowns of each interface in inertial axes, then the modes of unit modal mass.
+    /// Matrices of the part: six unknowns of each interface in inertial axes, then the modes of unit modal mass.
     pub matrices: ReducedMatrices,
     /// Positions of the interfaces [m].
     pub places: Vec<Vector3>,

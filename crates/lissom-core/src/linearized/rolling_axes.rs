@@ -57,7 +57,7 @@ impl<'a> LinearModel<'a> {
         spins(self.system(), self.kinematics()).iter().any(|spin| *spin != Vector3::zeros())
     }
 
-    /// The same model in axes that do not spin with the wheels. Its modes are valid only if
+    /// This model in axes that do not spin with the wheels. Its modes are valid only if
     /// [`departure_of`](Self::departure_of) confirms them.
     pub fn in_rolling_axes(&self) -> LinearModel<'a> {
         let layout = self.system().layout();

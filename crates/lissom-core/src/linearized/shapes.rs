@@ -15,7 +15,7 @@ use crate::kinematics::LOCKED;
 pub struct NodeShape {
     /// Name of the node.
     pub node: String,
-    /// Its position in the state about which the mode oscillates [m].
+    /// Position of the node in the state about which the mode oscillates [m].
     pub position: [f64; 3],
     /// Displacement [m, for unit modal mass].
     pub displacement: [Complex64; 3],
@@ -29,7 +29,7 @@ impl LinearModel<'_> {
         self.complex_shape(&mode.shape)
     }
 
-    /// The same for real displacements and rotations by row.
+    /// Shape at every node except the ground of real displacements and rotations by row.
     pub fn shape_of(&self, rows: &[f64]) -> Vec<NodeShape> {
         let rows: Vec<Complex64> = rows.iter().copied().map(Complex64::from).collect();
         self.complex_shape(&rows)

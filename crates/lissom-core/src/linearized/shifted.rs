@@ -58,7 +58,7 @@ impl<'a> RealShift<'a> {
         })
     }
 
-    /// The same for values that `fill` supplies, the derivatives weighted by these factors.
+    /// Factorises the values that `fill` supplies, the derivatives weighted by these factors; returns the number of eigenvalues below.
     pub(super) fn factor_values(
         &mut self,
         shift: f64,

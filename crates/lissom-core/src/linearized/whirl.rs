@@ -34,7 +34,7 @@ pub enum Whirl {
 }
 
 impl Whirl {
-    /// Its name in tables.
+    /// Name of the whirl in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",

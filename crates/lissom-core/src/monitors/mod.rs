@@ -41,7 +41,7 @@ use crate::settings::Problem;
 
 /// A kind of monitor.
 struct Kind {
-    /// Its name in snapshots.
+    /// Name of the kind in snapshots.
     name: &'static str,
     /// The monitor of a simulation, if it applies.
     begin: fn(&Beginning<'_>) -> Option<Box<dyn Monitor>>,
@@ -78,7 +78,7 @@ pub(crate) struct Monitors {
 }
 
 impl Monitors {
-    /// Those that apply.
+    /// Monitors that apply.
     pub(crate) fn new(beginning: &Beginning<'_>) -> Self {
         let begin = |kind: &Kind| Some((kind.name, (kind.begin)(beginning)?));
         Self { monitors: KINDS.iter().filter_map(begin).collect() }

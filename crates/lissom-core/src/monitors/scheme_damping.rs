@@ -21,7 +21,7 @@ const NOTEWORTHY: f64 = 0.05;
 /// Energy lost so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct SchemeDamping {
-    /// Of all parts [J].
+    /// Energy lost by all parts [J].
     lost: f64,
     /// By inertia [J].
     by_inertia: Vec<f64>,

@@ -32,7 +32,7 @@ pub enum CriticalKind {
 }
 
 impl CriticalKind {
-    /// Its name in `summary.json`.
+    /// Name of the kind in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Limit => "limit",

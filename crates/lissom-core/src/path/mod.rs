@@ -93,7 +93,7 @@ diagnostics! {
         NoEffect {
             /// Name of the parameter.
             name: String,
-            /// Its value at the start.
+            /// Value of the parameter at the start.
             value: f64,
         } => "path-without-effect" {
             cause: ("a small change of `{name}` does not change the equilibrium at {value}, where the path starts, so there is no path \
@@ -105,7 +105,7 @@ diagnostics! {
         NoSystem {
             /// Name of the parameter.
             name: String,
-            /// Its value.
+            /// Value of the parameter.
             value: f64,
             /// The reason.
             problem: String,
@@ -119,7 +119,7 @@ diagnostics! {
         Beyond {
             /// Name of the parameter.
             name: String,
-            /// Its value at the last equilibrium.
+            /// Value of the parameter at the last equilibrium.
             value: f64,
             /// Length of the path up to there.
             arc: f64,
@@ -217,7 +217,7 @@ diagnostics! {
         StartAlong {
             /// Name of the parameter.
             name: String,
-            /// Its value.
+            /// Value of the parameter.
             value: f64,
             /// Failure of the search for the equilibrium.
             error: StepError,

@@ -109,19 +109,19 @@ impl<M: Matrices> SaddlePoint<M> {
         }
     }
 
-    /// The same with rows and columns of one size, for `size` unknowns.
+    /// This problem with rows and columns of one size, for `size` unknowns.
     pub(crate) fn equilibrated(mut self, size: usize) -> Self {
         self.equilibration = Some(Equilibration::new(size, self.coordinate_count));
         self
     }
 
-    /// The same for a matrix that determines its multipliers: none of its constraints is redundant.
+    /// This problem with a matrix that determines its multipliers: none of its constraints is redundant.
     pub(crate) fn with_all_equations(mut self) -> Self {
         self.omits = false;
         self
     }
 
-    /// The same, continued with a solver that exchanges rows where a pivot vanishes without; `own` is the solver in use.
+    /// This problem, continued with a solver that exchanges rows where a pivot vanishes without; `own` is the solver in use.
     pub(crate) fn falling_back(mut self, own: &str) -> Self {
         self.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != own);
         self
@@ -142,7 +142,7 @@ impl<M: Matrices> SaddlePoint<M> {
         self.factor_with(structure, scale, 1.0)
     }
 
-    /// The same for an iterate of a nonlinear problem. What is dependent in its position is not omitted, but has a small compliance, and
+    /// Factors an iterate of a nonlinear problem. What is dependent in its position is not omitted, but has a small compliance, and
     /// retains it at all further iterates.
     ///
     /// # Errors

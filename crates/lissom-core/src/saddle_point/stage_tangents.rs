@@ -54,7 +54,7 @@ impl<S: Scalar> Factored<S> {
         }
     }
 
-    /// The same for several right-hand sides at once, one in each lane: their solutions.
+    /// Solutions of several right-hand sides at once, one in each lane.
     fn solve_several(&mut self, left: &[S], stages: &[Vec<Block>]) -> Vec<[S; SEVERAL]> {
         let mixed = |row: usize| {
             std::array::from_fn(|lane| {
@@ -254,7 +254,7 @@ impl StageTangents {
         }
     }
 
-    /// The same for several right-hand sides at once: one in each lane.
+    /// Solves for several right-hand sides at once: one in each lane.
     pub(crate) fn solve_several(&mut self, coupling: &Coupling, stages: &mut [Vec<Block>]) {
         enum Solutions {
             Real(Vec<[f64; SEVERAL]>),

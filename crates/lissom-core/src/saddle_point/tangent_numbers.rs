@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 /// Values of a tangent as plain numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum TangentNumbers {
-    /// Of one stage, or of a real eigenvalue of several.
+    /// Values of one stage, or of a real eigenvalue of several.
     Real(Vec<f64>),
-    /// Of a pair of complex conjugate eigenvalues: real and imaginary part.
+    /// Values of a pair of complex conjugate eigenvalues: real and imaginary part.
     Complex(Vec<[f64; 2]>),
 }
 

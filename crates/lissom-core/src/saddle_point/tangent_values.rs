@@ -7,9 +7,9 @@ use crate::schemes::StageSystem;
 /// Values of a tangent on its pattern.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TangentValues {
-    /// Of one stage, or of a real eigenvalue of several.
+    /// Values of one stage, or of a real eigenvalue of several.
     Real(Vec<f64>),
-    /// Of a pair of complex conjugate eigenvalues.
+    /// Values of a pair of complex conjugate eigenvalues.
     Complex(Vec<Complex64>),
 }
 

@@ -25,7 +25,7 @@ pub enum ConditionMethod {
 }
 
 impl ConditionMethod {
-    /// Its name in tables.
+    /// Name of the method in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::SingularValues => "2-norm",
@@ -72,7 +72,7 @@ impl TangentValues {
         }
     }
 
-    /// Its condition number: computed if it is small, estimated if it is large.
+    /// Condition number of the tangent: computed if it is small, estimated if it is large.
     pub fn condition(&self, structure: &Structure) -> Condition {
         let real_size = match self {
             Self::Real(_) => structure.pattern.size(),
@@ -88,7 +88,7 @@ impl TangentValues {
         Condition { value, method: ConditionMethod::SingularValues }
     }
 
-    /// Its condition number in the 1-norm, estimated from a few solves.
+    /// Condition number of the tangent in the 1-norm, estimated from a few solves.
     pub fn condition_estimate(&self, structure: &Structure) -> Condition {
         let value = match self {
             Self::Real(values) => estimate(structure, values),

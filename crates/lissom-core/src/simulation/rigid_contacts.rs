@@ -31,11 +31,11 @@ use crate::system::{State, System};
 const CLOSED: f64 = 1e-8;
 /// If other contacts keep a contact from closing, changes of its gap below this fraction of the length are round-off.
 const BAND: f64 = 1e-9;
-/// The same at the start, where positions are given.
+/// Gaps below this fraction of the length are closed at the start, where positions are given.
 const CLOSED_AT_START: f64 = 1e-6;
 /// Forces and accelerations below this fraction of the largest are zero.
 const ZERO: f64 = 1e-8;
-/// The same for redundant contacts, whose forces are known to fewer digits.
+/// Fraction below which forces of redundant contacts, which are known to fewer digits, are zero.
 const ZERO_SHARE: f64 = 1e-7;
 /// Eigenvalue of normal equations that repeat each other.
 const DEPENDENT: f64 = 1e-10;

@@ -22,7 +22,7 @@ pub(crate) struct Stops {
     /// Breakpoints of functions of time and jumps found within the present step. Steps of motions, and adaptive load steps, do not
     /// cross them.
     pub(crate) breakpoints: Vec<Breakpoint>,
-    /// Those breakpoints that are jumps found by sampling.
+    /// Breakpoints that are jumps found by sampling.
     found: Vec<f64>,
     /// Centre of an interval of the present step that is not determined by its ends [s], with the function's index.
     hidden: Option<(f64, usize)>,

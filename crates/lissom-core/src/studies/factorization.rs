@@ -29,7 +29,7 @@ pub struct Case {
     pub augmented: bool,
     /// Name of the solver.
     pub solver: &'static str,
-    /// Its result.
+    /// Result of the factorisation.
     pub outcome: Result<Factored, Stopped>,
 }
 
@@ -51,7 +51,7 @@ pub struct Factored {
     pub smallest_pivot: String,
     /// Largest error of a coordinate's correction over the largest such correction, for a random solution.
     pub coordinate_error: f64,
-    /// The same for multipliers.
+    /// Largest error of a multiplier over the largest multiplier.
     pub multiplier_error: f64,
     /// Componentwise backward error: the smallest relative change of all entries of matrix and right-hand side for which the computed
     /// solution of that problem is exact [Oettli and Prager 1964]. Scaling of rows and columns does not change it.

@@ -50,7 +50,7 @@ diagnostics! {
         }
         /// A joint coordinate depends on the others, or is prescribed.
         Dependent {
-            /// Its name.
+            /// Name of the joint coordinate.
             coordinate: String,
         } => "joint-space-dependent" {
             subject: Subject::new("coordinate", coordinate),

@@ -9,7 +9,7 @@ use super::{Beam, reference};
 pub(super) trait Constants<R: Real> {
     /// Shape function of node `i` at point `k`.
     fn shape(&self, k: usize, i: usize) -> f64;
-    /// Its derivative with respect to arc length.
+    /// Derivative of the shape function of node `i` at point `k` with respect to arc length.
     fn slope(&self, k: usize, i: usize) -> R;
     /// f₀ of the stress-free state.
     fn natural(&self, k: usize) -> Screw<R>;

@@ -23,7 +23,7 @@ use lissom_mechanics::kinematics::{Kinematics, NodeId};
 pub struct ExaminedBeams {
     /// Names, and elements.
     pub elements: Vec<(String, Vec<Arc<dyn BeamProbe>>)>,
-    /// Of the section forces that are recorded.
+    /// Errors of the section forces that are recorded.
     pub section_errors: Vec<SectionError>,
     /// Beside joints whose reactions are recorded.
     pub sections_at_joints: Vec<SectionError>,
@@ -55,7 +55,7 @@ pub struct SectionError {
 }
 
 impl SectionError {
-    /// Of the force or the moment at `fraction` of a beam, whose `first` component is 0 or 3. `attached` is the number of other elements and constraints that act on a node.
+    /// Error of the force or the moment at `fraction` of a beam, whose `first` component is 0 or 3. `attached` counts other elements and
     pub fn new(
         beam: &str,
         line: &BeamLine,

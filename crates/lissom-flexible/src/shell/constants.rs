@@ -141,7 +141,7 @@ impl Numbers {
         Self(numbers.into())
     }
 
-    /// The same with strains in the stress-free state.
+    /// Constants with strains in the stress-free state.
     pub(super) fn with_natural(mut self, strains: &[f64; STRAINS]) -> Self {
         Arc::make_mut(&mut self.0)[NATURAL..NATURAL + STRAINS].copy_from_slice(strains);
         self

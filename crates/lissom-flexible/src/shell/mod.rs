@@ -95,7 +95,7 @@ impl Shell {
         std::array::from_fn(|k| strains[k])
     }
 
-    /// The same at a corner, extrapolated from the points of quadrature, where they are most accurate.
+    /// Strains at a corner, extrapolated from the points of quadrature, where they are most accurate.
     pub fn strains_at_corner(&self, at: &Kinematics, corner: usize) -> [f64; 8] {
         let natural =
             nalgebra::SVector::from(Deformed::at(&self.numbers, &self.frames(at)).strains(&self.numbers));
@@ -119,12 +119,12 @@ impl Shell {
         std::array::from_fn(|k| resultants[k])
     }
 
-    /// Its area in the stress-free state [m²].
+    /// Area of the element in the stress-free state [m²].
     pub fn area(&self) -> f64 {
         condensed::areas(&self.reference).sum()
     }
 
-    /// Its elastic law.
+    /// Elastic law of the element.
     pub fn law(&self) -> &ShellLaw {
         &self.law
     }
@@ -146,7 +146,7 @@ impl Shell {
         std::array::from_fn(|i| self.numbers.director(i, 2).into())
     }
 
-    /// Its nodes, counterclockwise about the normal.
+    /// Nodes of the element, counterclockwise about the normal.
     pub fn nodes(&self) -> &[NodeId; NODES] {
         &self.nodes
     }

@@ -75,11 +75,11 @@ pub struct SurfaceDescription<'a> {
 /// A surface of shell elements as built.
 #[derive(Clone, Debug)]
 pub struct ShellSurface {
-    /// Its nodes.
+    /// Nodes of the surface.
     pub nodes: Vec<NodeId>,
     /// Area that belongs to each node [m²].
     pub areas: Vec<f64>,
-    /// Its elements, for outputs.
+    /// Elements of the surface, for outputs.
     pub elements: Vec<Arc<Shell>>,
 }
 

@@ -19,13 +19,13 @@ use lissom_mechanics::kinematics::{Kinematics, NodeId};
 
 /// A solid element of any kind, as outputs, pictures and files need it.
 pub trait SolidElement: Send + Sync {
-    /// Its nodes, in the order of Abaqus.
+    /// Nodes of the element, in the order of Abaqus.
     fn node_ids(&self) -> &[NodeId];
 
-    /// Its volume at rest, before its free strains [m³].
+    /// Volume of the element at rest, before its free strains [m³].
     fn volume(&self) -> f64;
 
-    /// Its strain energy [J].
+    /// Strain energy of the element [J].
     fn strain(&self, at: &Kinematics) -> f64;
 
     /// Visits the stresses at its nodes, each with the place of the node among its own.

@@ -52,12 +52,12 @@ struct Deformed<const POINTS: usize> {
 }
 
 impl<const NODES: usize, const POINTS: usize> Solid<NODES, POINTS> {
-    /// Its nodes, in the order of Abaqus.
+    /// Nodes of the element, in the order of Abaqus.
     pub fn nodes(&self) -> &[NodeId; NODES] {
         &self.nodes
     }
 
-    /// Its elastic law.
+    /// Elastic law of the element.
     pub fn law(&self) -> &SolidLaw {
         &self.law
     }

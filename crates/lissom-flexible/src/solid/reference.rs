@@ -21,7 +21,7 @@ pub(super) struct Reference<const NODES: usize, const POINTS: usize> {
 }
 
 impl<const NODES: usize, const POINTS: usize> Reference<NODES, POINTS> {
-    /// Of an element of a kind with so many nodes and points of quadrature, at these positions before its free strains.
+    /// Reference of an element of a kind with so many nodes and points of quadrature, at these positions before its free strains.
     pub(super) fn new(
         kind: &SolidKind,
         positions: &[Vector3; NODES],

@@ -15,7 +15,7 @@ use lissom_mechanics::round_off;
 
 /// Velocities at a stage.
 struct Velocities<const NODES: usize> {
-    /// Of the nodes.
+    /// Velocities of the nodes.
     all: [Vector3; NODES],
     /// σ.
     relative: [Vector3; NODES],

@@ -26,9 +26,9 @@ pub struct VolumeDescription<'a> {
 /// A body of solid elements as built.
 #[derive(Clone)]
 pub struct SolidVolume {
-    /// Its nodes.
+    /// Nodes of the volume.
     pub nodes: Vec<NodeId>,
-    /// Its elements, for outputs.
+    /// Elements of the volume, for outputs.
     pub elements: Vec<Arc<dyn SolidElement>>,
 }
 

@@ -27,7 +27,7 @@ pub struct SuperelementDescription<'a> {
     pub name: &'a str,
     /// Initial pose of the part.
     pub frame: Motion,
-    /// Its interfaces, in the order of the matrices.
+    /// Interfaces of the part, in the order of the matrices.
     pub interfaces: &'a [InterfacePlace],
     /// Index of the interface that carries the floating frame.
     pub floating: usize,

@@ -51,7 +51,7 @@ pub(super) struct Centre {
     against: Vector3,
     /// R_fᵀ g.
     gravity: Vector3,
-    /// Of the floating frame: velocity, angular velocity and its rate.
+    /// Velocity, angular velocity of the floating frame, and the rate of the latter.
     velocity: Vector3,
     spin: Vector3,
     spin_rate: Vector3,

@@ -63,7 +63,7 @@ impl TurningMatrices {
 pub struct GeometricMatrices {
     /// S along x, y, z.
     pub moment: [DMatrix<f64>; 3],
-    /// Of points that are displaced along straight lines, with sections that do not rotate.
+    /// Matrices of points that are displaced along straight lines, with sections that do not rotate.
     pub points: TurningMatrices,
     /// Effect of the rotation of sections, and the static response of omitted modes.
     pub sections: TurningMatrices,
@@ -194,7 +194,7 @@ impl GeometricMatrices {
         own
     }
 
-    /// The same, symmetric to the last bit, if they are consistent with the part whose mass is `mass`, with interfaces at
+    /// Makes the matrices symmetric to the last bit, if they are consistent with the part whose mass is `mass`, with interfaces at
     /// `places` [m].
     ///
     /// # Errors

@@ -163,7 +163,7 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
 }
 
 impl ReducedMatrices {
-    /// The same, symmetric to the last bit, if they are those of a free elastic part with interfaces at `places` [m].
+    /// Makes the matrices symmetric to the last bit, if they are those of a free elastic part with interfaces at `places` [m].
     ///
     /// # Errors
     /// If they are not: with the name of the matrix.

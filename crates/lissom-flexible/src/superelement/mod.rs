@@ -77,7 +77,7 @@ pub const MAX_DISPLACEMENT: f64 = 0.15;
 /// Angular velocity at which the missing centrifugal stiffness causes a warning, over the first natural frequency with the
 /// floating interface fixed: its square is the relative change of stiffness.
 pub const MAX_SPIN: f64 = 0.25;
-/// The same for matrices that include it, to first order in the square.
+/// Angular velocity that causes a warning for matrices that include this stiffness, to first order in the square.
 pub const MAX_SPIN_KNOWN: f64 = 1.0;
 
 /// A reduced part.

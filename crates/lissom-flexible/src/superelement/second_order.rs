@@ -49,7 +49,7 @@ pub(super) struct SecondOrder {
     first_moment: Vector3,
     moment_slope: [DVector<f64>; 3],
     moment: [DMatrix<f64>; 3],
-    /// Of points and of sections.
+    /// Laws of points and of sections.
     turning: [TurningLaw; 2],
     /// M.
     mass: DMatrix<f64>,
@@ -105,7 +105,7 @@ pub(super) struct Deformed {
     /// G + S y, S ẏ.
     moment: [DVector<f64>; 3],
     moment_rate: [DVector<f64>; 3],
-    /// Of points and of sections.
+    /// Matrices of points and of sections.
     turning: [Turning; 2],
     /// D y.
     shortening: Vec<DVector<f64>>,

@@ -32,7 +32,7 @@ pub struct Inverted {
 }
 
 impl<const NODES: usize> Functions<NODES> {
-    /// Those of a kind that has `NODES` nodes.
+    /// Functions of a kind that has `NODES` nodes.
     pub fn at(fill: Fill, place: Natural) -> Self {
         let mut functions = Self { values: [0.0; NODES], slopes: [Vector3::zeros(); NODES] };
         fill(place, &mut functions.values, &mut functions.slopes);

@@ -15,7 +15,7 @@ pub(super) fn on_square(k: usize) -> (Natural, f64) {
     ([x.0, y.0, 0.0], x.1 * y.1)
 }
 
-/// The same of a triangle r, s ≥ 0, r + s ≤ 1, as a square of which one side is a corner.
+/// Nine points of a triangle r, s ≥ 0, r + s ≤ 1, as a square of which one side is a corner.
 pub(super) fn on_triangle(k: usize) -> (Natural, f64) {
     let ([x, y, _], weight) = on_square(k);
     let [u, v] = [x, y].map(|x| 0.5 * (1.0 + x));

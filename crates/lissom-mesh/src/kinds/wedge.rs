@@ -78,7 +78,7 @@ fn fine(k: usize) -> (Natural, f64) {
     ([x, y, t], area * weight)
 }
 
-/// Those of Gauss along the third coordinate.
+/// Coordinate of the Gauss points along the third axis.
 fn height() -> f64 {
     (1.0_f64 / 3.0).sqrt()
 }

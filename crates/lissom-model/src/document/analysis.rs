@@ -65,7 +65,7 @@ impl Analysis {
 }
 
 impl AnalysisKind {
-    /// Its word in the model file.
+    /// Word for the kind in the model file.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Dynamics { .. } => "dynamics",

@@ -32,7 +32,7 @@ const MAX_POISSON_OF_RUBBER: f64 = 0.499_99;
 pub struct ElasticSolid {
     /// Name.
     pub name: Located<String>,
-    /// Its nodes and elements.
+    /// Nodes and elements of the solid.
     pub mesh: Arc<MeshedPart>,
     /// What it consists of.
     pub material: SolidMaterial,

@@ -8,7 +8,7 @@ use crate::expression::Formula;
 use crate::text::report::Located;
 
 impl Document {
-    /// The same model with a load's size a new input, which is last among the inputs; none where no load is called so.
+    /// This model with a load's size a new input, which is last among the inputs; none where no load is called so.
     pub fn with_load_as_input(&self, load: &str) -> Option<Self> {
         let index = self.loads.iter().position(|own| own.name.value == load)?;
         let kind = LOADS.iter().find(|kind| kind.name == self.loads[index].kind.value)?;

@@ -83,7 +83,7 @@ pub enum LocalLaw {
 pub struct LocalExpression {
     /// The law.
     pub law: LocalLaw,
-    /// Its arguments, in their order.
+    /// Arguments of the law, in their order.
     pub arguments: Vec<LocalName>,
     /// Subject of messages.
     pub subject: Arc<Subject>,
@@ -241,7 +241,7 @@ struct Laws<'r, 'c, 'a> {
     name: &'r str,
     is_along_beam: bool,
     variables: BTreeMap<&'r str, &'r Node>,
-    /// Those that are read, and those that are being read.
+    /// Variables that are read, and those that are being read.
     known: BTreeMap<&'r str, Option<usize>>,
     states: Vec<(LocalState, &'r Node)>,
     functions: Vec<LocalExpression>,

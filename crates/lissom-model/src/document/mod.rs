@@ -250,7 +250,7 @@ impl Document {
 pub struct Material {
     /// Name.
     pub name: Located<String>,
-    /// Its constants.
+    /// Constants of the material.
     pub constants: Isotropic,
 }
 
@@ -301,7 +301,7 @@ pub struct Beam {
     pub distributed: Vec<DistributedForce>,
     /// Temperature above that of the state without stress over `s` [K].
     pub temperature: Expression,
-    /// Its change along axes 2 and 3 [K/m].
+    /// Change of the temperature along axes 2 and 3 [K/m].
     pub temperature_slope: [f64; 2],
 }
 
@@ -398,13 +398,13 @@ pub struct Superelement {
     pub name: Located<String>,
     /// Position of the origin of its axes [m].
     pub position: Vector3,
-    /// Its axes as columns in global axes.
+    /// Axes of the part as columns in global axes.
     pub axes: Matrix3,
-    /// Its interfaces, in the order of the matrices.
+    /// Interfaces of the part, in the order of the matrices.
     pub interfaces: Vec<Interface>,
     /// Index of the interface that carries the floating frame.
     pub floating: usize,
-    /// Its matrices, checked.
+    /// Matrices of the part, checked.
     pub matrices: ReducedMatrices,
     /// Matrix for outputs from its unknowns, one row per output.
     pub recovery: Option<Arc<DMatrix<f64>>>,
@@ -476,7 +476,7 @@ pub struct Component {
     pub parameters: Parameters,
     /// Where each of them is.
     pub parameter_spans: Vec<(String, Span)>,
-    /// Its size and the key it is given by, where it is more than a function of time. Its parameter is then 1.
+    /// Size of the component and the key it is given by, where it is more than a function of time. Its parameter is then 1.
     pub signal: Option<(&'static str, Located<Formula>)>,
     /// A latch on a joint: the value of its coordinate at which it engages [m, rad].
     pub latch: Option<Located<f64>>,

@@ -25,7 +25,7 @@ impl ModelText {
         Self::read_with(text, file_name, overrides, Arc::new(Library::beside(Path::new(file_name))))
     }
 
-    /// The same with included files from `library`.
+    /// Reads `text` with included files from `library`.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -38,7 +38,7 @@ impl ModelText {
         Self::read_without(text, (file_name, &[]), overrides, library)
     }
 
-    /// The same without the values and entries that the paths `left_out` lead to.
+    /// Reads `text` without the values and entries that the paths `left_out` lead to.
     ///
     /// # Errors
     /// As [`read`](Self::read); also if there is nothing to leave out at a path.

@@ -23,7 +23,7 @@ use crate::text::{Node, Value};
 pub struct Shell {
     /// Name.
     pub name: Located<String>,
-    /// Its nodes and elements.
+    /// Nodes and elements of the shell.
     pub mesh: Arc<MeshedPart>,
     /// Layers from the bottom to the top, without thickness.
     pub layers: Vec<Layer>,
@@ -59,7 +59,7 @@ pub struct Layer {
 /// A load per area of a shell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AreaLoad {
-    /// Of a pressure one over u, v, t and x, y, z, of a force per area three components over u, v and t.
+    /// Components: one of a pressure over u, v, t and x, y, z, three of a force per area over u, v and t.
     pub components: Vec<Formula>,
     /// Whether a pressure acts on the face of the normal.
     pub is_on_top: bool,

@@ -21,9 +21,9 @@ use crate::text::{Node, Value};
 pub struct SignalEntry {
     /// Name.
     pub name: Located<String>,
-    /// Its expression, or the argument of its table.
+    /// Expression of the signal, or the argument of its table.
     pub value: Located<Formula>,
-    /// Its table.
+    /// Table of the signal.
     pub table: Option<Table>,
     /// Time from sample to sample [s] and value before the first, for a sampled one.
     pub sampling: Option<(f64, f64)>,
@@ -57,7 +57,7 @@ pub struct DiscreteFilter {
 pub struct StateEntry {
     /// Name.
     pub name: Located<String>,
-    /// Its derivative by time.
+    /// Derivative of the state by time.
     pub derivative: Located<Formula>,
     /// Value at the start.
     pub start: f64,

@@ -6,7 +6,7 @@ use lissom_mechanics::registry::{ParameterType, Value};
 use super::{AnalysisKind, Document};
 
 impl Document {
-    /// The same model without gravity, forces per length of beams, pressures and forces per area, and sizes of loads.
+    /// This model without gravity, forces per length of beams, pressures and forces per area, and sizes of loads.
     /// Loads remain with size zero, so that outputs and inputs can refer to them and the pattern of the matrices is the same.
     /// Entries without a size are unchanged: the spin of a gyrostat is not an applied load.
     #[must_use]
@@ -30,7 +30,7 @@ impl Document {
         document
     }
 
-    /// The same model with the loads of one instant: those at the end of load steps, where constant loads have grown to their full size.
+    /// This model with the loads of one instant: those at the end of load steps, where constant loads have grown to their full size.
     #[must_use]
     pub fn under_full_loads(&self) -> Self {
         let mut document = self.clone();

@@ -92,7 +92,7 @@ fn of_one(function: Function, [low, high]: Interval) -> Interval {
     }
 }
 
-/// Of the sine.
+/// Bounds of the sine.
 fn wave([low, high]: Interval) -> Interval {
     if !(low.is_finite() && high.is_finite()) || high - low >= TAU {
         return [-1.0, 1.0];
@@ -103,7 +103,7 @@ fn wave([low, high]: Interval) -> Interval {
     [if has(-0.5 * PI) { -1.0 } else { from }, if has(0.5 * PI) { 1.0 } else { to }]
 }
 
-/// Of atan2(u, v): that of the corners, unless the half-line at which it jumps meets the rectangle.
+/// Bounds of atan2(u, v): those of the corners, unless the half-line at which it jumps meets the rectangle.
 fn angle(u: Interval, v: Interval) -> Interval {
     let is_met = v[0] <= 0.0 && u[0] <= 0.0 && u[1] >= 0.0;
     if is_met {

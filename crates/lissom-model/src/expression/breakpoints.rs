@@ -17,7 +17,7 @@ pub(crate) struct Course {
     pub(crate) line: Line,
     /// Values of the variable at which they have a kink or a jump, in ascending order.
     pub(crate) breakpoints: Vec<f64>,
-    /// Of each switch, in the order of [`switches`], whether its zeros are among these, and none are elsewhere.
+    /// Whether the zeros of each switch, in the order of [`switches`], are among the breakpoints, and none are elsewhere.
     pub(crate) are_known: Vec<bool>,
 }
 

@@ -43,7 +43,7 @@ impl Formula {
         Ok(Self { steps, arguments, text: text.to_owned() })
     }
 
-    /// The same number at all times.
+    /// Formula with one value at all times.
     pub(crate) fn of_constant(value: f64) -> Self {
         Self { steps: vec![Step::Constant(value)], arguments: Vec::new(), text: value.to_string() }
     }

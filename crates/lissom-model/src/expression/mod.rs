@@ -48,7 +48,7 @@ impl Expression {
         compile::compile(text, variable, parameters, None).map(|steps| Self { steps })
     }
 
-    /// The same number everywhere.
+    /// Expression with one value everywhere.
     pub(crate) fn of_constant(value: f64) -> Self {
         Self { steps: vec![Step::Constant(value)] }
     }

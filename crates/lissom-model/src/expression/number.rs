@@ -4,7 +4,7 @@ use super::jet::Function;
 
 /// Operations of an expression.
 pub(super) trait Number: Copy {
-    /// The same number everywhere.
+    /// Number with one value everywhere.
     fn constant(value: f64) -> Self;
     /// u + v.
     fn plus(self, other: Self) -> Self;
@@ -45,7 +45,7 @@ pub(super) trait Number: Copy {
 
 /// A number at one point, which is on one side of every switch.
 pub(super) trait Point: Number {
-    /// Its value.
+    /// Value of the number.
     fn value(self) -> f64;
 }
 

@@ -33,7 +33,7 @@ pub(super) fn run<N: Number>(steps: &[Step], variable: N, argument: impl Fn(usiz
     run_with(steps, variable, argument, |_, _| None)
 }
 
-/// The same with functions continued from known `sides` of their switches, in the order of the switches; none for all by
+/// Runs the steps with functions continued from known `sides` of their switches, in the order of the switches; none for all by
 /// their arguments. Passes the switching functions to `visit`.
 pub(super) fn run_continued<N: Point>(
     steps: &[Step],
@@ -52,7 +52,7 @@ pub(super) fn run_continued<N: Point>(
     })
 }
 
-/// The same, with functions that are `replaced` by other values.
+/// Runs the steps with functions that are `replaced` by other values.
 #[inline]
 fn run_with<N: Number>(
     steps: &[Step],

@@ -228,7 +228,7 @@ pub fn create_file(path: &Path) -> Result<BufWriter<File>, FileError> {
     create(path).map(BufWriter::new)
 }
 
-/// The same without a buffer.
+/// Creates a file for incremental writing without a buffer.
 ///
 /// # Errors
 /// If it cannot be created, or is an input.

@@ -43,7 +43,7 @@ pub(crate) const SOLID_KINDS: [SolidKind; 11] = [
 ];
 
 impl SolidKind {
-    /// Its keys except `kind`.
+    /// Keys of the kind except `kind`.
     pub(crate) fn all_keys(&self) -> Vec<Key> {
         let is_own = |key: &Key| self.keys.contains(&key.name) || COMMON.contains(&key.name);
         Shape::drawn_keys().into_iter().filter(is_own).collect()

@@ -40,9 +40,9 @@ pub(crate) enum Shape {
     Entries(&'static str),
     /// Three numbers, not all zero, in global axes; those of the part inside of one.
     Direction,
-    /// The same with a default: this axis of the part.
+    /// Direction in global axes with a default: this axis of the part.
     DirectionOr(ModelAxis),
-    /// The same in axes of a body, which are not transformed.
+    /// Direction in axes of a body, which is not transformed.
     BodyDirection,
     /// One of the words.
     Choice(Cow<'static, [&'static str]>),
@@ -66,7 +66,7 @@ pub(crate) enum Shape {
     Function,
     /// A number, an expression of time, inputs, signals, states and outputs, or a table.
     Size,
-    /// The same without tables.
+    /// A number, or an expression of time, inputs, signals, states and outputs.
     Formula,
     /// A formula, or a table of a formula, its sample period and its start.
     Signal,

@@ -97,7 +97,7 @@ mod tests {
         Remembered::new(Expression::parse(text, Some("t"), &BTreeMap::new()).unwrap())
     }
 
-    /// Of many functions and times, which share slots.
+    /// Many functions and times, which share slots.
     #[test]
     fn values_are_those_of_the_function_at_that_time() {
         let functions: Vec<Remembered> = (1..40).map(|k| read(&format!("{k}*t^3"))).collect();

@@ -163,7 +163,7 @@ impl Table {
         Self::new(&rows, interpolation, Extrapolation::Periodic)
     }
 
-    /// The same, with arguments beyond the rows to be reported: their values were not chosen.
+    /// A table with arguments beyond the rows to be reported: their values were not chosen.
     #[must_use]
     pub fn bounded(self) -> Self {
         Self { is_bounded: self.extrapolation != Extrapolation::Periodic, ..self }

@@ -49,7 +49,7 @@ pub enum Records {
 const MOST_RECORDS: f64 = 5000.0;
 
 impl Records {
-    /// Of steps that are chosen by their error. `output_step` [s] is the distance that is asked for, if any.
+    /// Records of steps that are chosen by their error. `output_step` [s] is the requested distance, if any.
     fn of_chosen_steps(scheme: &Scheme, output_step: Option<f64>, duration: f64) -> Self {
         match output_step {
             Some(step) if scheme.dense.is_some() => Self::Within(step),

@@ -140,7 +140,7 @@ impl Built {
     }
 }
 
-/// Of all section forces and moments that are recorded.
+/// Errors of all section forces and moments that are recorded.
 fn section_errors(document: &Document, names: &Names, system: &System) -> Vec<SectionError> {
     let recorded = document.outputs.iter().filter(|output| output.kind.subject() == Subject::Section);
     let on_beam = |output: &Output| match &output.source {

@@ -16,7 +16,7 @@ pub(crate) const PLACE: [&str; 3] = ["x", "y", "z"];
 #[derive(Clone, Debug)]
 struct OverPlace {
     formula: Formula,
-    /// Of each argument the number that it is, or the coordinate of the place.
+    /// Each argument: the number that it is, or the coordinate of the place.
     arguments: Vec<Result<f64, usize>>,
     axes: Motion,
     /// From when to when it grows from nothing [s], if it is constant.

@@ -12,9 +12,9 @@ use crate::text::report::{Problem, Report, Span};
 /// Memory of a node of a beam with its elements, its tangent, its factors and the motion of the run [bytes]: lines of
 /// 10⁴ and 3·10⁴ elements need 53 kB (Radau IIA) to 79 kB (generalized-α) for each node at most.
 const PER_NODE: f64 = 5e4;
-/// The same of a body: 20 000 free ones need 19 kB each.
+/// Memory of a body [bytes]: 20 000 free ones need 19 kB each.
 const PER_BODY: f64 = 3e4;
-/// The same of a joint: each of a chain of 20 000 needs 26 kB.
+/// Memory of a joint [bytes]: each of a chain of 20 000 needs 26 kB.
 const PER_JOINT: f64 = 3e4;
 /// Memory that every machine has [bytes].
 const SMALL: f64 = 1e8;

@@ -22,13 +22,13 @@ pub(super) struct NamedComponent<Target> {
 pub(super) struct SignalReferences {
     /// Values of sampled signals between samples.
     pub(super) samples: BTreeMap<String, DiscreteValueId>,
-    /// Those of the signals that are straight lines of time, a + b t.
+    /// Signals that are straight lines of time, a + b t.
     pub(super) lines_of_time: BTreeMap<SignalId, (f64, f64)>,
     /// Components of outputs and of joints' coordinates, by the names they are written with and whether the signals are sampled.
     pub(super) measured: BTreeMap<(String, bool), Argument>,
-    /// Those of them that are of elements, which are added after signals.
+    /// Measured components of elements, which are added after signals.
     pub(super) later_measurements: Vec<NamedComponent<MeasurementId>>,
-    /// Those of them that are read at samples.
+    /// Measured components that are read at samples.
     pub(super) readings: Vec<NamedComponent<DiscreteValueId>>,
     /// Outputs that are expressions and are being resolved, each named by the one before.
     pub(super) open_expressions: Vec<String>,

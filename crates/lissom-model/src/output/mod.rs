@@ -59,13 +59,13 @@ impl Column {
         Self { plot: output.clone(), output, component, quantity, unit, fatigue: None }
     }
 
-    /// The same in the plot of this name, if one is given.
+    /// This column in the plot of this name, if one is given.
     #[must_use]
     pub fn in_plot(self, plot: Option<String>) -> Self {
         Self { plot: plot.unwrap_or_else(|| self.output.clone()), ..self }
     }
 
-    /// Its label in a legend among `others`: the component, and the output where other outputs are drawn in the same plot.
+    /// Label of the column in a legend among `others`: the component, and the output where other outputs are drawn in the same plot.
     pub fn label(&self, others: &[Self]) -> String {
         let is_shared = others.iter().any(|other| other.plot == self.plot && other.output != self.output);
         match self.component.as_str() {
@@ -75,7 +75,7 @@ impl Column {
         }
     }
 
-    /// The same, with its cycles counted.
+    /// This column, with its cycles counted.
     #[must_use]
     pub fn with_fatigue(self, fatigue: Option<Fatigue>) -> Self {
         Self { fatigue, ..self }

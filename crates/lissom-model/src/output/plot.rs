@@ -110,7 +110,7 @@ pub(super) struct Panel {
     pub(super) unit: String,
     /// Columns that are in it.
     pub(super) names: Vec<String>,
-    /// Its curves.
+    /// Curves of the panel.
     pub(super) curves: Vec<Curve>,
 }
 

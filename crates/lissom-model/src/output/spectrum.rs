@@ -26,7 +26,7 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of values at ascending times; none where there are fewer than four rows, or numbers that are not finite.
+    /// Spectrum of values at ascending times; none where there are fewer than four rows, or numbers that are not finite.
     pub fn of(times: &[f64], values: &[f64]) -> Option<Self> {
         let rows = times.len().min(values.len());
         let is_known = times.iter().chain(values).all(|number| number.is_finite());

@@ -19,9 +19,9 @@ const PARALLEL: (f64, f64) = (220.0, 460.0);
 /// A column of the table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepAxis {
-    /// Its name.
+    /// Name of the axis.
     pub name: String,
-    /// Its value in each member; of words, their number among those that occur.
+    /// Value of the varied quantity in each member; of words, their number among those that occur.
     pub values: Vec<f64>,
     /// Whether the scale is logarithmic.
     pub is_logarithmic: bool,

@@ -54,7 +54,7 @@ impl Channel {
         }
     }
 
-    /// The same for one of its components.
+    /// What has to be recovered from the positions before one of its components is evaluated.
     pub fn need_of(&self, component: usize) -> Need {
         if self.quantity.is_of_positions(component) { Need::Positions } else { self.need() }
     }

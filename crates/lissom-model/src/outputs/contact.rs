@@ -32,7 +32,7 @@ pub(crate) const CONTACT: Declaration = Declaration {
     ],
     build: Build::System(SOLUTION, quantity),
 };
-/// Of a joint, by index.
+/// Contact of a joint, by index.
 struct OfJoint(usize);
 
 fn quantity(output: &Output, system: &System, _: &Subjects<'_>) -> Found {

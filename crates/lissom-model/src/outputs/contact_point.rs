@@ -12,9 +12,9 @@ use lissom_system::System;
 /// Points of contacts by their names.
 #[derive(Clone, Default)]
 pub(crate) struct PointsOfContacts {
-    /// Of compliant ones.
+    /// Points of compliant contacts.
     pub(crate) compliant: BTreeMap<String, Vec<ContactPoint>>,
-    /// Of rigid ones.
+    /// Points of rigid contacts.
     pub(crate) rigid: BTreeMap<String, Vec<RigidPoint>>,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct PointsOfSet {
 }
 
 impl PointsOfSet {
-    /// Of the contact of this index.
+    /// Points of the contact of this index.
     pub(crate) fn new(system: &System, rule: usize) -> Self {
         Self { rule, gap: SmallestGap::new(system.contacts(), rule) }
     }

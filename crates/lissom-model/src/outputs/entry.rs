@@ -46,9 +46,9 @@ pub enum ReactionAxes {
     /// Global ones.
     #[default]
     Ground,
-    /// Those of the joint frame that the base carries.
+    /// Axes of the joint frame that the base carries.
     Base,
-    /// Those of the joint frame that the tip carries.
+    /// Axes of the joint frame that the tip carries.
     Tip,
 }
 
@@ -84,7 +84,7 @@ pub struct Output {
     pub axis: Option<Vector3>,
     /// The fraction of the length of a beam at which it is recorded.
     pub station: Option<Located<f64>>,
-    /// Its unit, if it is given.
+    /// Unit of the output, if it is given.
     pub unit: Option<String>,
     /// The plot in which it is drawn; its own if there is none.
     pub plot: Option<String>,

@@ -108,7 +108,7 @@ pub(crate) const DISTANCE: Declaration = Declaration {
     components: &[("distance", "m"), ("rate", "m/s")],
     build: Build::Motion(|output, subjects| quantity(Of::Distance, output, subjects)),
 };
-/// Of a frame that a node carries.
+/// Quantity of a frame that a node carries.
 struct OfFrame(Arc<dyn Measurement>);
 
 impl OutputQuantity for OfFrame {

@@ -40,9 +40,9 @@ pub(crate) enum Feature {
     AngleAxis,
     /// It may be of one station along a beam.
     Station,
-    /// Its unit may be given.
+    /// The unit may be given.
     Unit,
-    /// Its cycles may be counted as fatigue.
+    /// The cycles may be counted as fatigue.
     Fatigue,
     /// An observer other than the ground may see it.
     Observer,
@@ -192,7 +192,7 @@ impl OutputKind {
         self.declaration().subject
     }
 
-    /// Its features, in the order of their keys.
+    /// Features of the kind, in the order of their keys.
     pub(crate) fn features(self) -> &'static [Feature] {
         self.declaration().features
     }

@@ -29,7 +29,7 @@ pub(crate) struct BeamSection {
 }
 
 impl Location {
-    /// Its motion as that of a node.
+    /// Motion of the location as that of a node.
     pub(crate) fn motion(&self, at: &Kinematics) -> NodeMotion {
         match self {
             Self::Carried(CarriedFrame { node, offset }) => {
@@ -89,7 +89,7 @@ pub(crate) struct ObservedSection {
 }
 
 impl ObservedSection {
-    /// Its components.
+    /// Components of the section.
     pub(crate) fn values(&self, at: &Kinematics) -> Vec<f64> {
         let carried = |frame: &Option<CarriedFrame>| {
             frame.map_or_else(MovingFrame::<f64>::global, |frame| {

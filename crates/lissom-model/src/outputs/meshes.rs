@@ -12,11 +12,11 @@ use crate::reading::mesh_nodes::BuiltNodes;
 /// A shell as built.
 #[derive(Clone)]
 pub struct BuiltShell {
-    /// Its nodes.
+    /// Nodes of the shell.
     pub nodes: BuiltNodes,
     /// Area that belongs to each node [m²].
     pub(crate) areas: Vec<f64>,
-    /// Its elements.
+    /// Elements of the shell.
     pub elements: Vec<Arc<Shell>>,
     /// Layers of each element; one for all if they are the same.
     pub(crate) plies: Vec<Arc<[Ply]>>,
@@ -34,9 +34,9 @@ impl BuiltShell {
 /// An elastic solid as built.
 #[derive(Clone)]
 pub struct BuiltSolid {
-    /// Its nodes.
+    /// Nodes of the solid.
     pub nodes: BuiltNodes,
-    /// Its elements.
+    /// Elements of the solid.
     pub elements: Vec<Arc<dyn SolidElement>>,
 }
 
@@ -56,7 +56,7 @@ impl BuiltMeshes {
         self.shells.get(name).map(|own| &own.nodes).or_else(of_solid)
     }
 
-    /// Those of all shells and solids, with their names.
+    /// Nodes of all shells and solids, with their names.
     pub fn all(&self) -> impl Iterator<Item = (&str, &BuiltNodes)> {
         let shells = self.shells.iter().map(|(name, own)| (name.as_str(), &own.nodes));
         shells.chain(self.solids.iter().map(|(name, own)| (name.as_str(), &own.nodes)))

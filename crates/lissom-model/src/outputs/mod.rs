@@ -85,7 +85,7 @@ pub(crate) trait OutputQuantity: Send + Sync {
         None
     }
 
-    /// Its components one after the other, if they depend on the motion of a few nodes and coordinates and have exact gradients
+    /// Components of the quantity one after the other, if they depend on the motion of a few nodes and coordinates and have exact gradients
     /// for Newton's method.
     fn measurements(&self) -> &[Arc<dyn Measurement>] {
         &[]

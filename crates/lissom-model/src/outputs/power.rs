@@ -80,7 +80,7 @@ impl OutputQuantity for OfElement {
         out.push(at.system.power(self.0, at.motion()));
     }
 
-    /// Of a load that a signal scales, by the product rule.
+    /// Derivatives of the power of a load that a signal scales, by the product rule.
     fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
         let ScaledPower { signal, size, unit, gradient, nodes, coordinates } =
             at.system.scaled_power(self.0, at.motion())?;

@@ -72,7 +72,7 @@ fn effort(quantity: Quantity) -> OutputComponent {
     }
 }
 
-/// Those of the state's multipliers on which a joint's reaction depends.
+/// Multipliers of the state on which a joint's reaction depends.
 pub(super) fn multipliers(joint: &AttachedJoint, state: &State) -> Equations {
     let mut mu = Equations::default();
     mu[..joint.reacting().len()].copy_from_slice(&state.multipliers[joint.reacting()]);

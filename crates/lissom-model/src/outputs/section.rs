@@ -45,7 +45,7 @@ fn quantity(first: usize, output: &Output, subjects: &Subjects<'_>) -> Found {
     Ok(Arc::new(MeasuredSection(Arc::new(OfSection { section, nodes, first }))))
 }
 
-/// The same as an output.
+/// Force or moment of a section as an output.
 struct MeasuredSection(Arc<dyn Measurement>);
 
 impl OutputQuantity for MeasuredSection {

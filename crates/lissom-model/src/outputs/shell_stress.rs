@@ -78,7 +78,7 @@ struct Corner {
     plies: Arc<[Ply]>,
     /// Place of the middle of the thickness along the normal [m].
     offset: f64,
-    /// Its share in the mean.
+    /// Share of the corner in the mean.
     share: f64,
     /// Cosine and sine of the angle from its first axis to that of the node.
     turn: [f64; 2],

@@ -47,11 +47,11 @@ pub(crate) struct Scope {
     pub(crate) prefix: String,
     /// Names of the scope around it that are known here.
     pub(crate) outside: Outside,
-    /// Its own parameters, in the order in which they may name each other.
+    /// Parameters of the scope itself, in the order in which they may name each other.
     pub(crate) parameters: Vec<(String, Span, Node)>,
     /// The number of the part among all of its array, from 1, and their count.
     pub(crate) index: Option<(usize, usize)>,
-    /// Its placements in the enclosing scopes, the innermost first.
+    /// Placements of the part in the enclosing scopes, the innermost first.
     pub(crate) placements: Vec<Placement>,
     /// Position of the request in the text.
     pub(crate) place: Span,
@@ -62,7 +62,7 @@ pub(crate) struct Scope {
 pub(crate) enum Outside {
     /// All of them.
     All,
-    /// Those that were handed in, under names of the scope's own.
+    /// Names that were handed in, under names of the scope's own.
     Handed(Vec<(String, Node)>),
 }
 

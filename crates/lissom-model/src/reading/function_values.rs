@@ -30,7 +30,7 @@ impl Context<'_> {
         self.function(node, what).map(Size::OfTime)
     }
 
-    /// The same of a text alone, where mistakes were reported before.
+    /// A size from a text alone, where mistakes were reported before.
     pub(crate) fn size_unreported(&self, node: &Node) -> Option<Size> {
         let Value::Text(text) = &node.value else { return None };
         let formula = Formula::parse(text, &self.parameters_of(node.scope)).ok()?;

@@ -62,7 +62,7 @@ pub(crate) fn nodes_at(
     }
 }
 
-/// The same of a reference, reported where it is.
+/// Nodes of a reference, with faults reported where it is.
 ///
 /// # Errors
 /// What is wrong, and the remedy.
@@ -84,7 +84,7 @@ pub(crate) fn position_of(mesh: &MeshedPart, place: &MeshPlace) -> Option<Vector
 pub struct BuiltNodes {
     /// As the model describes them.
     pub mesh: Arc<MeshedPart>,
-    /// The same nodes of the system.
+    /// Corresponding nodes of the system.
     pub nodes: Vec<NodeId>,
 }
 
@@ -99,7 +99,7 @@ impl BuiltNodes {
         self.one_index(reference).map(|index| self.nodes[index])
     }
 
-    /// Its index.
+    /// Index of the only node that a reference means.
     pub(crate) fn one_index(&self, reference: &Located<NodeReference>) -> Result<usize, Problem> {
         match self.indices(reference)?[..] {
             [index] => Ok(index),

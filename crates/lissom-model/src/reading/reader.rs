@@ -23,7 +23,7 @@ pub(crate) struct Reader<'c, 'a> {
     table: &'c Table,
     /// The table in words, as in "beam `mast`".
     pub(crate) what: String,
-    /// Its name in the text.
+    /// Name of the table in the text.
     pub(crate) name: Span,
     /// Where it was written.
     pub(crate) scope: ScopeId,

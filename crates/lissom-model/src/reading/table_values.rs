@@ -33,7 +33,7 @@ impl Context<'_> {
         self.table_of(&reader, node, beyond)
     }
 
-    /// The same, where it has further keys.
+    /// A table of rows or columns that has further keys.
     pub(crate) fn table_of(
         &self,
         reader: &Reader<'_, '_>,

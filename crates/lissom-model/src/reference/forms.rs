@@ -37,7 +37,7 @@ pub struct Form {
     pub heading: String,
     /// Word of the table at the top.
     pub table: &'static str,
-    /// The same in the singular, such as `joint`.
+    /// Word for one entry, such as `joint`.
     pub singular: &'static str,
     /// Description of the table.
     pub about: String,
@@ -47,7 +47,7 @@ pub struct Form {
     pub word: &'static str,
     /// One sentence.
     pub summary: &'static str,
-    /// Its keys except that which chooses it.
+    /// Keys of the form except that which chooses it.
     pub keys: Vec<FormKey>,
 }
 

@@ -195,7 +195,7 @@ fn nested((name, summary): (&str, &str), keys: &[Key], words: &mut Words) -> Dec
     with_keys(Declared { name: name.to_owned(), heading, optional: Vec::new() }, keys, None, words)
 }
 
-/// The same with the arguments of `new` and the optional keys.
+/// Adds the arguments of `new` and the optional keys to declarations.
 fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mut Words) -> Declared {
     let typed: Vec<(&Key, String)> = keys
         .iter()

@@ -16,7 +16,7 @@ const MAX_PLACES: usize = 13;
 
 /// Kind of a load of the local motion on a node.
 pub const LOCAL_LOAD: &str = "local_load";
-/// The same along a beam.
+/// Kind of a load of the local motion along a beam.
 pub const DISTRIBUTED_LOCAL_LOAD: &str = "distributed_local_load";
 
 /// A joint, or a drive of one.
@@ -30,7 +30,7 @@ pub struct Joint {
     pub parts: Vec<String>,
     /// Where it is on base and tip; none for a drive.
     pub anchors: Option<[Anchor; 2]>,
-    /// Its axes in the frame of the base's node, of length one.
+    /// Axes of the joint in the frame of the base's node, of length one.
     pub axes: Vec<[f64; 3]>,
     /// The joint that is driven, for a drive.
     pub joint: Option<String>,
@@ -45,7 +45,7 @@ pub struct Spring {
     pub kind: String,
     /// Names of the parts it connects, base first.
     pub parts: Vec<String>,
-    /// Its ends; none where it acts on the coordinate of a joint.
+    /// Ends of the spring; none where it acts on the coordinate of a joint.
     pub anchors: Option<[Anchor; 2]>,
     /// The joint it acts on.
     pub joint: Option<String>,
@@ -69,7 +69,7 @@ pub struct Load {
     pub vector: Option<[f64; 3]>,
     /// Whether it turns with the node.
     pub follower: bool,
-    /// Its factor at equal distances from the start to the end of the analysis; none where it is not known beforehand.
+    /// Factor of the load at equal distances from the start to the end of the analysis; none where it is not known beforehand.
     pub scale: Vec<f64>,
 }
 

@@ -20,7 +20,7 @@ const ROUND: f64 = 0.81;
 pub struct ElasticSolid {
     /// Name.
     pub name: String,
-    /// Its nodes.
+    /// Nodes of the solid.
     pub nodes: Vec<NodeId>,
     /// Position of each node in the stress-free state [m].
     pub positions: Vec<[f64; 3]>,
@@ -30,7 +30,7 @@ pub struct ElasticSolid {
     /// Number of elements.
     #[serde(default)]
     pub element_count: usize,
-    /// Its surface as it is drawn: corners of quadrilaterals among its nodes, counterclockwise seen from outside; triangles have the last
+    /// Surface as it is drawn: corners of quadrilaterals among the nodes, counterclockwise seen from outside; triangles have the last
     /// corner twice.
     pub elements: Vec<[usize; 4]>,
     /// Normal of the smooth surface at each corner, in the stress-free state.

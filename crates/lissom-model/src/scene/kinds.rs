@@ -13,7 +13,7 @@ pub(super) type Both = [Axes; 2];
 pub(super) enum Drawn {
     /// Solids on base and tip, and the connection between them.
     Solids(fn(&Both) -> [Vec<Solid>; 2]),
-    /// The same with a rod from base to tip.
+    /// Solids on base and tip, with a rod from base to tip.
     WithRod(fn(&Both) -> [Vec<Solid>; 2]),
     /// By a coil from base to tip.
     Coil,

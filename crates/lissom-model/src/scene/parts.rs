@@ -23,7 +23,7 @@ const THINNER: f64 = 0.005;
 pub struct Body {
     /// Name.
     pub name: String,
-    /// Its node.
+    /// Node of the body.
     pub node: NodeId,
     /// Mass [kg].
     pub mass: f64,
@@ -41,7 +41,7 @@ pub struct Body {
 pub struct PointMass {
     /// Name.
     pub name: String,
-    /// Its node.
+    /// Node of the point mass.
     pub node: NodeId,
     /// Mass [kg].
     pub mass: f64,
@@ -57,9 +57,9 @@ pub struct Station {
     pub at: f64,
     /// Name of the section.
     pub section: String,
-    /// Its outline.
+    /// Outline of the section.
     pub outline: Outline,
-    /// Its stiffness by rows, 6 x 6 [N, N m, N m²], linear between stations; empty if it is unknown.
+    /// Stiffness of the section by rows, 6 x 6 [N, N m, N m²], linear between stations; empty if it is unknown.
     #[serde(default)]
     pub stiffness: Vec<f64>,
 }
@@ -69,7 +69,7 @@ pub struct Station {
 pub struct Beam {
     /// Name.
     pub name: String,
-    /// Its nodes from start to end.
+    /// Nodes of the beam from start to end.
     pub nodes: Vec<NodeId>,
     /// Fraction of the beam at each node.
     pub places: Vec<f64>,

@@ -15,7 +15,7 @@ pub struct PathValues {
     pub name: String,
     /// Length of the path at every equilibrium [-], ascending from zero.
     pub lengths: Vec<f64>,
-    /// Its value at each.
+    /// Value of the parameter at every equilibrium.
     pub values: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ impl PathValues {
 }
 
 impl Scene {
-    /// The same scene along an equilibrium path. With `scales_loads` loads are those at the start of the analysis times the
+    /// This scene along an equilibrium path. With `scales_loads` loads are those at the start of the analysis times the
     /// values, which then are load factors; without, loads and stiffnesses may depend on the values and are omitted.
     #[must_use]
     pub fn along(mut self, path: PathValues, scales_loads: bool) -> Self {

@@ -113,7 +113,7 @@ pub(super) fn part_of(reference: &NodeReference) -> &str {
 
 #[cfg(test)]
 impl<'a> Placed<'a> {
-    /// Of a model that is not moved before its start.
+    /// Places of a model that is not moved before its start.
     pub(crate) fn as_built(built: &'a crate::lower::Built) -> Self {
         let crate::lower::Built { names, state, .. } = built;
         Self { names, nodes: &state.kinematics.nodes, drawn: None, is_static: false }

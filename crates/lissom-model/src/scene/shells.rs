@@ -11,7 +11,7 @@ use crate::document::Document;
 pub struct Shell {
     /// Name.
     pub name: String,
-    /// Its nodes; the third axis of their frames is the normal of the surface at the start.
+    /// Nodes of the shell; the third axis of their frames is the normal of the surface at the start.
     pub nodes: Vec<NodeId>,
     /// Position of each node in the stress-free state [m].
     pub positions: Vec<[f64; 3]>,

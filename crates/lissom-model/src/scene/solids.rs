@@ -46,18 +46,18 @@ pub enum Tone {
 /// A solid of a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solid {
-    /// Its form.
+    /// Form of the solid.
     pub form: Form,
-    /// Its sizes, in the order of the form.
+    /// Sizes of the solid, in the order of the form.
     pub size: [f64; 3],
-    /// Its centre, from the position of the symbol, in the frame of the node.
+    /// Centre of the solid, from the position of the symbol, in the frame of the node.
     pub place: [f64; 3],
-    /// Its axis in the frame of the node, of length one. It leads there from the solid's second axis by the shortest turn.
+    /// Axis of the solid in the frame of the node, of length one. It leads there from the solid's second axis by the shortest turn.
     pub axis: [f64; 3],
     /// Direction of the first side of a block, of length one and perpendicular to the axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<[f64; 3]>,
-    /// Its role, for its colour.
+    /// Role of the solid, for its colour.
     pub tone: Tone,
 }
 

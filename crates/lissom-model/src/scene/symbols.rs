@@ -18,7 +18,7 @@ use lissom_mechanics::kinematics::{GROUND, NodeId};
 pub struct Symbol {
     /// Name of the joint, spring or load.
     pub name: String,
-    /// Its table; none in scenes of earlier versions.
+    /// Table of the entry; none in scenes of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<Table>,
     /// Where it is.
@@ -28,7 +28,7 @@ pub struct Symbol {
     /// Length [m] of which sizes and positions of its solids are multiples; none for symbols whose size depends on the picture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<f64>,
-    /// Its solids.
+    /// Solids of the symbol.
     pub solids: Vec<Solid>,
 }
 
@@ -37,12 +37,12 @@ pub struct Symbol {
 pub struct Rod {
     /// Name of the joint, spring or load.
     pub name: String,
-    /// Its table; none in scenes of earlier versions.
+    /// Table of the entry; none in scenes of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub table: Option<Table>,
-    /// Its ends.
+    /// Ends of the rod.
     pub anchors: [Anchor; 2],
-    /// Its radius [m]; none for those whose thickness depends on the picture.
+    /// Radius of the rod [m]; none for those whose thickness depends on the picture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
 }

@@ -18,7 +18,7 @@ pub(crate) struct Integrals {
 
 /// A shape of cross section.
 pub(crate) trait CrossSection {
-    /// Its integrals about the centroid.
+    /// Integrals of the section about the centroid.
     fn integrals(&self) -> Integrals;
 
     /// Shear coefficients for shear along axes 2 and 3 [–].
@@ -33,7 +33,7 @@ pub(crate) struct SectionKind {
     pub(crate) name: &'static str,
     /// One sentence.
     pub(crate) summary: &'static str,
-    /// Its keys.
+    /// Keys of the kind.
     pub(crate) keys: fn() -> Vec<Key>,
     /// Reads it from its table and reports errors.
     pub(crate) read: fn(&Reader<'_, '_>) -> Option<Box<dyn CrossSection>>,

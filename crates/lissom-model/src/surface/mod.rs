@@ -93,7 +93,7 @@ impl Surface {
         }
     }
 
-    /// Of what is no solid about its centre; a prism has this length, and what is unbounded is not drawn.
+    /// Surface of what is no solid about its centre; a prism has this length, and what is unbounded is not drawn.
     pub(crate) fn of_form(form: &Form, length: f64) -> Self {
         match form {
             Form::Solid(solid) => Self::of_solid(solid, &Vector3::zeros()),
@@ -157,7 +157,7 @@ impl Surface {
         Self::of_rings(&rings, center, true)
     }
 
-    /// The same stretched along its axes and placed in others. A reflection turns the order of the corners.
+    /// This surface stretched along its axes and placed in others. A reflection turns the order of the corners.
     pub(crate) fn moved(&self, frame: &Motion, scale: &Vector3) -> Self {
         let place = |point: &[f32; 3]| {
             let point = Vector3::from(point.map(f64::from)).component_mul(scale);

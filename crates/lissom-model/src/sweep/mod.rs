@@ -98,7 +98,7 @@ pub struct SweepFile {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub histories: Vec<String>,
     members: usize,
-    /// Of each member, for each varied path: the number, or the index of a listed value.
+    /// Samples of each member, for each varied path: the number, or the index of a listed value.
     #[serde(skip)]
     samples: Vec<f64>,
 }

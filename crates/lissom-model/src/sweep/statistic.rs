@@ -75,7 +75,7 @@ impl Statistic {
         if self.name.starts_with("time_of_") { "s" } else { unit }
     }
 
-    /// Its value for a history; none if there is no record, or one that is not finite.
+    /// Value of the statistic for a history; none if there is no record, or one that is not finite.
     pub fn of(&self, history: &Accumulator) -> Option<f64> {
         let value = (self.of)(history);
         (history.records > 0 && history.fault.is_none() && value.is_finite()).then_some(value)
@@ -113,7 +113,7 @@ impl Default for Accumulator {
 }
 
 impl Accumulator {
-    /// Of a column whose cycles are counted.
+    /// Accumulator of a column whose cycles are counted.
     pub fn with_fatigue(fatigue: Option<Fatigue>) -> Self {
         Self { fatigue: fatigue.map(|fatigue| (fatigue, Rainflow::new(fatigue.exponent))), ..Self::default() }
     }

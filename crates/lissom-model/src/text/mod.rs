@@ -62,7 +62,7 @@ impl Node {
         }
     }
 
-    /// The same value where its text is there again, in another scope.
+    /// This value where its text is there again, in another scope.
     pub(crate) fn moved(&self, by: Shift, scope: ScopeId) -> Self {
         let value = match &self.value {
             Value::List(list) => Value::List(list.iter().map(|entry| entry.moved(by, scope)).collect()),
@@ -73,7 +73,7 @@ impl Node {
     }
 }
 
-/// The same entries where their text is there again, in another scope.
+/// Entries of a table where their text is there again, in another scope.
 pub(crate) fn moved(table: &Table, by: Shift, scope: ScopeId) -> Table {
     let entry = |(name, entry): (&String, &Entry)| {
         (name.clone(), Entry { key: entry.key.moved(by), node: entry.node.moved(by, scope) })

@@ -37,7 +37,7 @@ impl Shift {
 }
 
 impl Span {
-    /// The same stretch where its text is there again.
+    /// This stretch where its text is there again.
     pub(crate) fn moved(self, shift: Shift) -> Self {
         if self.start < shift.within.start || self.start > shift.within.end {
             return self;
@@ -67,7 +67,7 @@ impl<T> Located<T> {
         Self { value, span }
     }
 
-    /// The same position with another value.
+    /// This position with another value.
     pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Located<U> {
         Located { value: change(self.value), span: self.span }
     }

@@ -89,7 +89,7 @@ pub(super) fn add_columns<S: Scalar>(
     }
 }
 
-/// The same, with rows of the contribution added to columns of the target.
+/// Adds rows of the contribution to columns of the target.
 #[inline(always)]
 pub(super) fn add_transposed<S: Scalar>(
     target: &mut [S],

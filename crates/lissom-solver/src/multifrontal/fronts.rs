@@ -45,11 +45,11 @@ pub(super) struct Front {
     pub(super) panels: usize,
     /// Offset of its pieces among the factors.
     pub(super) factors: usize,
-    /// Its boundary in [`Symbolic::boundaries`].
+    /// Boundary of the front in [`Symbolic::boundaries`].
     pub(super) rows: Range<usize>,
-    /// Its entries in [`Symbolic::sources`] and [`Symbolic::targets`].
+    /// Entries of the front in [`Symbolic::sources`] and [`Symbolic::targets`].
     pub(super) entries: Range<usize>,
-    /// Its children in [`Symbolic::children`].
+    /// Children of the front in [`Symbolic::children`].
     pub(super) children: Range<usize>,
     /// The stack of its contribution, and the position in it.
     pub(super) stack: usize,
@@ -101,7 +101,7 @@ pub(super) struct Child {
     pub(super) part: usize,
     pub(super) contribution: Range<usize>,
     pub(super) stride: usize,
-    /// Its runs in [`Symbolic::runs`] that are added to pivots of the parent, and those that are added to its
+    /// Runs of the child in [`Symbolic::runs`] that are added to pivots of the parent, and those that are added to its
     /// boundary.
     pub(super) to_pivots: Range<usize>,
     pub(super) to_boundary: Range<usize>,
@@ -120,9 +120,9 @@ pub(super) struct Run {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Part {
     pub(super) fronts: Range<usize>,
-    /// Its steps, including the positions for outside unknowns.
+    /// Steps of the part, including the positions for outside unknowns.
     pub(super) steps: Range<usize>,
-    /// Those positions, and the steps they represent.
+    /// Positions for outside unknowns, and the steps they represent.
     pub(super) places: Range<usize>,
     pub(super) outside: Vec<u32>,
     pub(super) factors: Range<usize>,

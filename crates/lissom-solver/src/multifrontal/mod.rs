@@ -51,7 +51,7 @@ pub struct Multifrontal<S> {
     numeric: Numeric<S>,
     vector: Vec<S>,
     front_vectors: Vec<FrontVectors<S>>,
-    /// The same for several right-hand sides, with storage for a front; empty until they are requested.
+    /// Vectors of several right-hand sides, with storage for a front; empty until they are requested.
     several: [Vec<[S; SEVERAL]>; 2],
     /// Number of subtrees of each thread; none with a single one.
     crews: Vec<usize>,

@@ -320,7 +320,7 @@ fn copy_scaled<S: Scalar, const ROWS: usize>(
     }
 }
 
-/// The same with the opposite sign.
+/// Copies the first rows of columns with the opposite sign.
 #[inline(always)]
 fn copy_negative<S: Scalar, const ROWS: usize>(
     to: &mut [S],

@@ -39,7 +39,7 @@ mod cost {
     pub(super) const FACTOR: f64 = 1.3;
     pub(super) const CONTRIBUTION: f64 = 1.3;
     pub(super) const PRODUCT: f64 = 0.22;
-    /// The same in solves: overhead, each pivot, each factor.
+    /// A large front in solves: overhead, each pivot, each factor.
     pub(super) const LARGE_SOLVE: f64 = 120.0;
     pub(super) const PIVOT_SOLVE: f64 = 10.0;
     pub(super) const FACTOR_SOLVE: f64 = 0.125;

@@ -22,7 +22,7 @@ pub fn minimum_degree_order(structure: &Structure) -> Vec<usize> {
     order(structure, &graph, vec![0; graph.len()])
 }
 
-/// The same, with the separators of a nested dissection last.
+/// Minimum-degree order with the separators of a nested dissection last.
 pub(crate) fn dissected_order(structure: &Structure, graph: &GroupGraph) -> Vec<usize> {
     order(structure, graph, dissection::ranks(structure, graph))
 }

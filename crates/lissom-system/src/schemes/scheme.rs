@@ -97,12 +97,12 @@ pub struct Weights<T> {
 }
 
 impl Weights<f64> {
-    /// Those of load steps: a constraint of velocities, such as a latch, then keeps what it constrains at its place.
+    /// Weights of load steps: a constraint of velocities, such as a latch, then keeps what it constrains at its place.
     pub const AT_REST: Self = Self { velocity: 0.0, acceleration: 0.0, slip: 1.0, slip_augmented: 1.0 };
 }
 
 impl<T: Copy> Weights<T> {
-    /// Those of a motion.
+    /// Weights of a motion.
     pub fn of_motion(velocity: T, acceleration: T) -> Self {
         Self { velocity, acceleration, slip: velocity, slip_augmented: 0.0 }
     }
@@ -183,7 +183,7 @@ impl Tableau {
 pub struct ErrorEstimate {
     /// The estimate.
     pub combination: Combination,
-    /// Its order in the step size.
+    /// Order of the estimate in the step size.
     pub order: i32,
     /// The estimate for an oscillation of unit amplitude, over the power `order` of its phase per step.
     pub of_oscillation: f64,
@@ -236,7 +236,7 @@ impl Scheme {
 pub struct SchemeError {
     /// Name of the parameter.
     pub parameter: &'static str,
-    /// Its value.
+    /// Value of the parameter.
     pub value: f64,
     /// Lowest value allowed.
     pub lowest: f64,
@@ -265,7 +265,7 @@ pub struct SchemeKind {
     pub tolerance: Option<f64>,
     /// How it solves contacts by default. Schemes whose default are elements cannot use sets.
     pub contacts: ContactSolution,
-    /// Its parameter, if it has one, with its default.
+    /// Parameter of the scheme, if it has one, with its default.
     pub parameters: &'static [Parameter],
     /// Builds the scheme of the parameter.
     pub build: fn(f64) -> Result<Scheme, SchemeError>,

@@ -21,9 +21,9 @@ pub trait Analysis: DeserializeOwned {
     const NAME: &'static str;
     /// Last word in the name of its folder of results.
     const FOLDER: &'static str = Self::NAME;
-    /// Its result.
+    /// Result of the analysis.
     type Report: AnalysisReport;
-    /// Its failure.
+    /// Failure of the analysis.
     type Error: AnalysisError + 'static;
 
     /// Analyses `model`.
@@ -38,7 +38,7 @@ pub trait AnalysisReport {
     /// Names and texts of its tables.
     fn tables(&self) -> Vec<(String, String)>;
 
-    /// Its figure, if it has one.
+    /// Figure of the report, if it has one.
     fn figure(&self, _title: &str) -> Option<Result<Graphic, FigureError>> {
         None
     }
@@ -54,10 +54,10 @@ pub trait AnalysisReport {
     /// Inserts its contents into `summary.json`.
     fn add_facts(&self, insert: &mut dyn FnMut(&str, Value));
 
-    /// Its warnings.
+    /// Warnings of the analysis.
     fn warnings(&self) -> Vec<Diagnostic>;
 
-    /// Its lines on the terminal, after the title of the model; the first one ends with the duration of the analysis.
+    /// Lines of the report on the terminal, after the title of the model; the first one ends with the duration of the analysis.
     fn text(&self, time: &str) -> String;
 
     /// The last line, about the folder of results.

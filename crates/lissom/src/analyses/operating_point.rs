@@ -25,7 +25,7 @@ const STILL_BALANCED: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-12;
 /// A motion whose twists change by less, relative to the square of its rate, is steady.
 const STEADY: f64 = 1e-6;
-/// The same for a rotation with computed positions, where light parts have more round-off.
+/// A rotation with computed positions whose twists change by less is steady: light parts have more round-off.
 const STEADY_ROTATION: f64 = 1e-5;
 
 /// The state about which a model is linearised.
@@ -46,7 +46,7 @@ pub enum OperatingPoint {
 pub(crate) struct LinearizationPoint<'m, 'a> {
     /// The linear model.
     pub(crate) model: &'m LinearModel<'a>,
-    /// Its outputs.
+    /// Outputs of the model.
     pub(crate) channels: &'m [Channel],
     /// Warnings about the results of the linear model.
     pub(crate) warnings: Vec<AnalysisWarning>,
@@ -77,7 +77,7 @@ impl TryFrom<String> for OperatingPoint {
 }
 
 impl OperatingPoint {
-    /// Its name in `summary.json`.
+    /// Name of the operating point in `summary.json`.
     pub(crate) fn name(self) -> String {
         match self {
             Self::Static => "static".to_owned(),

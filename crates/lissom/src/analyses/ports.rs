@@ -29,7 +29,7 @@ pub enum PortError {
     Ambiguous {
         /// The given name.
         name: String,
-        /// Its possible meanings.
+        /// Possible meanings of the name.
         meanings: String,
     },
     /// No output has this name.
@@ -63,7 +63,7 @@ pub(crate) struct Observed {
 }
 
 impl Observed {
-    /// Its direct derivative with respect to the input, without the motion.
+    /// Direct derivative of the output with respect to the input, without the motion.
     pub(crate) fn direct(&self, input: &Input) -> f64 {
         input.held.and_then(|held| self.derivatives.by_held.get(&held).copied()).unwrap_or(0.0)
     }

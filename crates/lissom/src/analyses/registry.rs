@@ -33,7 +33,7 @@ pub type Outcome = Result<ResultFiles, Box<dyn AnalysisError>>;
 /// An analysis in the registry.
 #[derive(Clone, Copy, Debug)]
 pub struct Registered {
-    /// Its name.
+    /// Name of the analysis.
     pub name: &'static str,
     /// Computes it for a request as a TOML value.
     pub compute: fn(&Model, &str) -> Outcome,

@@ -6,12 +6,12 @@ use crate::ids::Id;
 
 /// Something that can be added to a model. Its kinds are those of the model file.
 pub trait Entry {
-    /// Its id in code.
+    /// Id of the entry in code.
     type Id: Id;
     /// Prefix of generated names.
     const WORD: &'static str;
 
-    /// Its value in the model file.
+    /// Value of the entry in the model file.
     fn written(self) -> Written;
 }
 

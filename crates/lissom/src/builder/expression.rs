@@ -61,7 +61,7 @@ impl Expression {
         Self(Form::Pieces(pieces))
     }
 
-    /// Its text in pieces, or its number.
+    /// Text of the expression in pieces, or its number.
     pub(crate) fn pieces(&self) -> Result<&[Piece], f64> {
         match &self.0 {
             Form::Number(number) => Err(*number),
@@ -110,31 +110,31 @@ impl Expression {
         self.joined(&format!("{name}("), "", None, ")")
     }
 
-    /// Its sine.
+    /// Sine of the expression.
     #[must_use]
     pub fn sin(self) -> Self {
         self.function("sin")
     }
 
-    /// Its cosine.
+    /// Cosine of the expression.
     #[must_use]
     pub fn cos(self) -> Self {
         self.function("cos")
     }
 
-    /// Its exponential.
+    /// Exponential of the expression.
     #[must_use]
     pub fn exp(self) -> Self {
         self.function("exp")
     }
 
-    /// Its square root.
+    /// Square root of the expression.
     #[must_use]
     pub fn sqrt(self) -> Self {
         self.function("sqrt")
     }
 
-    /// Its absolute value.
+    /// Absolute value of the expression.
     #[must_use]
     pub fn abs(self) -> Self {
         self.function("abs")
@@ -228,14 +228,14 @@ macro_rules! named {
 named! { InputId SignalId StateId }
 
 impl SignalId {
-    /// Its previous sample, in the expression of a sampled signal.
+    /// Previous sample of the signal, in the expression of a sampled signal.
     pub fn last(self) -> Expression {
         Expression::named(self.0, "last")
     }
 }
 
 impl JointId {
-    /// Its relative rotation [rad].
+    /// Relative rotation of the joint [rad].
     pub fn angle(self) -> Expression {
         self.coordinate("angle")
     }
@@ -245,7 +245,7 @@ impl JointId {
         self.coordinate("rate")
     }
 
-    /// Its relative displacement [m].
+    /// Relative displacement of the joint [m].
     pub fn displacement(self) -> Expression {
         self.coordinate("displacement")
     }

@@ -244,7 +244,7 @@ impl From<Solid> for Written {
 /// A 6 x 6 matrix, or its diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Matrix {
-    /// Its diagonal.
+    /// Diagonal of the matrix.
     Diagonal([f64; 6]),
     /// The full matrix.
     Full(Box<[[f64; 6]; 6]>),
@@ -303,7 +303,7 @@ impl From<SectionMass> for Written {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shear {
-    /// The same for both directions.
+    /// One value for both directions.
     Both(f64),
     /// Along axes 2 and 3.
     Each([f64; 2]),

@@ -12,7 +12,7 @@ pub struct RecordedRun {
     pub title: String,
     /// The scene of the model.
     pub scene: Scene,
-    /// Its motion.
+    /// Motion of the model.
     pub motion: Motion,
     /// The table of results.
     pub record: Record,

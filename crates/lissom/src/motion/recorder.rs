@@ -61,7 +61,7 @@ impl<W: Write + Send> MotionRecorder<W> {
         }
     }
 
-    /// The same recorder, writing to `to`.
+    /// This recorder, writing to `to`.
     pub fn writing_to<V: Write + Send>(self, to: V) -> MotionRecorder<V> {
         let Self { buffer, flushed, header, reference, probes, start, interval, last, between, .. } = self;
         MotionRecorder { to, buffer, flushed, header, reference, probes, start, interval, last, between }

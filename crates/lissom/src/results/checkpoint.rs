@@ -48,11 +48,11 @@ impl FromStr for CheckpointEvery {
 pub struct Checkpoint {
     /// Path of the model file, as it was given.
     pub model: String,
-    /// Its text.
+    /// Text of the model file.
     pub text: String,
     /// The texts of included files, by path.
     pub included: std::collections::BTreeMap<String, String>,
-    /// Its overrides.
+    /// Overrides of the model.
     pub overrides: Vec<Override>,
     /// What was omitted from it.
     pub left_out: Vec<String>,

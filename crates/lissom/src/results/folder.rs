@@ -102,7 +102,7 @@ pub enum FolderError {
     NoResults {
         /// The folder or file.
         path: String,
-        /// Its actual content.
+        /// Actual content of the folder or file.
         is: &'static str,
     },
     /// There are only folders of results in the given one.
@@ -118,7 +118,7 @@ pub enum FolderError {
     NoMotion {
         /// The folder.
         path: String,
-        /// Its actual content.
+        /// Actual content of the folder.
         holds: &'static str,
         /// The remedy.
         remedy: &'static str,
@@ -292,7 +292,7 @@ impl ResultFolder {
         Ok((Self { path: path.to_owned(), _lock: None, begun: None }, record, title))
     }
 
-    /// Its path.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -312,7 +312,7 @@ impl ResultFolder {
         self.path.join(MOTION)
     }
 
-    /// Its motion file, emptied.
+    /// Motion file of the folder, emptied.
     ///
     /// # Errors
     /// If the file cannot be created.
@@ -320,7 +320,7 @@ impl ResultFolder {
         files::create(&self.motion_path())
     }
 
-    /// Its motion file, to be continued from `checkpoint`, and the time of its last frame [s].
+    /// Motion file of the folder, to be continued from `checkpoint`, and the time of its last frame [s].
     ///
     /// # Errors
     /// If it is missing, shorter than stated in the checkpoint, or not a motion file.

@@ -10,18 +10,18 @@ const WHOLE: f64 = 1e-9;
 /// The next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
-    /// Of this size [s], up to this instant [s].
+    /// A step of this size [s], up to this instant [s].
     Planned { size: f64, end: f64 },
-    /// Of any size, not beyond this instant [s].
+    /// A step of any size, not beyond this instant [s].
     Until(f64),
 }
 
 /// A record that is due.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Due {
-    /// Of this instant within the last step [s].
+    /// A record of this instant within the last step [s].
     Within(f64),
-    /// Of its end.
+    /// A record of the end of the last step.
     End,
 }
 

@@ -10,7 +10,7 @@ use lissom_core::settings::{Phase, Stopwatch};
 
 /// Steps that take longer than this on average are all measured.
 const LONG: Duration = Duration::from_micros(20);
-/// Of shorter ones, one in this number.
+/// Number of shorter steps of which one is measured.
 const STRIDE: u32 = 16;
 
 /// Time by kind of work [s]. The whole time of steps is distributed in the proportions of the measured ones.

@@ -14,7 +14,7 @@ use super::{JointCoordinateError, JointCoordinates, Session};
 pub struct JointDynamics {
     coordinates: JointCoordinates,
     space: JointSpace,
-    /// Of velocities that satisfy the constraints.
+    /// Recovery of velocities that satisfy the constraints.
     recovery: Option<Box<Recovery>>,
 }
 

@@ -250,7 +250,7 @@ impl Session {
         &self.telemetry
     }
 
-    /// Its progress.
+    /// Progress of the run.
     pub fn progress(&self) -> Progress {
         let (done, planned) = self.schedule.done();
         Progress { time: self.schedule.time(), end: self.schedule.plan().end, done, planned }

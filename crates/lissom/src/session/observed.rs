@@ -12,7 +12,7 @@ pub(crate) struct Observed {
     channels: Vec<Channel>,
     /// The largest need of the channels.
     need: Need,
-    /// Of motions, if any output depends on more than positions.
+    /// Recovery of motions, if any output depends on more than positions.
     recovery: Option<Mutex<Box<Recovery>>>,
 }
 

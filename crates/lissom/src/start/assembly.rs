@@ -19,18 +19,18 @@ pub struct MovedPart {
     pub part: String,
     /// Displacement of its reference point, of a beam that of the node that moved most [m].
     pub distance: f64,
-    /// Its turn [rad].
+    /// Rotation of the part [rad].
     pub turn: f64,
 }
 
 /// A coordinate that an assembly has brought to a value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brought {
-    /// Its name, such as `crank.angle`.
+    /// Name of the coordinate, such as `crank.angle`.
     pub coordinate: String,
-    /// Its value [rad, m].
+    /// Value of the coordinate [rad, m].
     pub value: f64,
-    /// Its unit.
+    /// Unit of the coordinate.
     pub unit: &'static str,
 }
 

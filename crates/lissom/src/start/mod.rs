@@ -86,7 +86,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     lower_locked(document, &[])
 }
 
-/// The same with all degrees of freedom of some nodes locked.
+/// Makes the system that a document describes, with all degrees of freedom of some nodes locked.
 ///
 /// # Errors
 /// As [`lower`].

@@ -111,7 +111,7 @@ impl SweepFolder {
         Ok((Self { path: path.to_owned(), members }, outcomes))
     }
 
-    /// Its path.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }

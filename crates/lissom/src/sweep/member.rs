@@ -16,7 +16,7 @@ use crate::session::{Progress, Session, SessionError};
 pub enum MemberState {
     /// At its planned end, with all collected values.
     Solved,
-    /// Its values result in an invalid model.
+    /// The values of the member result in an invalid model.
     WrongModel,
     /// It has no solution, or a collected value is not finite.
     Failed,
@@ -38,7 +38,7 @@ impl MemberState {
 pub struct MemberOutcome {
     /// Number of the member.
     pub member: usize,
-    /// Its state.
+    /// State of the member.
     pub state: MemberState,
     /// The collected values, in the order of the sweep file; none for a member that is not solved.
     pub values: Vec<f64>,

@@ -26,7 +26,7 @@ const LOOK: Duration = Duration::from_millis(5);
 const SETTLED: Duration = Duration::from_millis(10);
 /// An error in a file is reported if the file has been unchanged for this time: it may have been written only in part.
 const SURE: Duration = Duration::from_millis(200);
-/// The same for an empty file: files are empty for a moment while they are saved.
+/// Duration for which an empty file must be unchanged: files are empty for a moment while they are saved.
 const SURE_TO_BE_EMPTY: Duration = Duration::from_secs(2);
 
 /// Data for pages, and their requests.

@@ -21,7 +21,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// Of this half length h [m].
+    /// Segment of this half length h [m].
     pub fn new(half_length: f64) -> Self {
         Self { ends: [-half_length, half_length] }
     }

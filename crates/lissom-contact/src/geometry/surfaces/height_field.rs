@@ -29,7 +29,7 @@ pub struct HeightField {
 }
 
 impl HeightField {
-    /// Of heights in rows of equal length, over a rectangle of these sides about the origin [m]; none with fewer than two rows or
+    /// Field of heights in rows of equal length, over a rectangle of these sides about the origin [m]; none with fewer than two rows or
     /// columns.
     pub fn new(heights: Vec<Vec<f64>>, sides: [f64; 2]) -> Option<Self> {
         let (rows, columns) = (heights.len(), heights.first().map_or(0, Vec::len));

@@ -28,7 +28,7 @@ pub enum MeshError {
     /// It has no volume, or is inside out.
     #[error("it encloses no volume, or its triangles are seen from inside")]
     NoVolume,
-    /// Its points have no convex hull.
+    /// The points of the mesh have no convex hull.
     #[error("its points are in a plane")]
     Flat,
 }
@@ -42,7 +42,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Of points and the indices of those of each triangle.
+    /// Mesh of points and the indices of those of each triangle.
     ///
     /// # Errors
     /// If it is not closed, or encloses no volume.
@@ -104,7 +104,7 @@ impl Mesh {
         Self::new(&points, &triangles)
     }
 
-    /// Its corners [m].
+    /// Corners of the mesh [m].
     pub fn corners(&self) -> impl Iterator<Item = Vector3> {
         self.shape.vertices().iter().map(|point| Vector3::new(point.x, point.y, point.z))
     }

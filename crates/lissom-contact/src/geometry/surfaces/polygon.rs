@@ -34,7 +34,7 @@ impl Polygon {
         Some(Self { corners, depth })
     }
 
-    /// Its corners, counterclockwise.
+    /// Corners of the polygon, counterclockwise.
     pub fn corners(&self) -> &[Vector2<f64>] {
         &self.corners
     }

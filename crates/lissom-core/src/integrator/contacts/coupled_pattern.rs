@@ -28,9 +28,9 @@ pub(crate) struct CoupledPattern {
     /// Positions of the first rows of the columns of the blocks of each pair: those of the first node's rows in the second's columns, and
     /// of the second's in the first's.
     across: Vec<[Columns; 2]>,
-    /// The same of the own block of each node.
+    /// Positions of the first row of the own block of each node in its columns.
     own: Vec<Columns>,
-    /// Those that touch, or may soon.
+    /// Pairs of nodes whose parts touch, or may soon.
     near: Vec<Couple>,
     /// Whether no solver has been made for it yet.
     is_new: bool,

@@ -39,7 +39,7 @@ pub(super) struct Encounter {
 }
 
 impl FreePath {
-    /// Of the parts with these nodes in a step of `size` [s] under gravity [m/s²].
+    /// Path of the parts with these nodes in a step of `size` [s] under gravity [m/s²].
     pub(super) fn of(nodes: [NodeId; 2], (start, gravity): (&Kinematics, Vector3), size: f64) -> Self {
         let motion = |node: NodeId| {
             let own = &start.nodes[node];

@@ -81,7 +81,7 @@ impl Participant {
 #[derive(Default)]
 pub(crate) struct Impacts {
     pub(crate) participants: Vec<Participant>,
-    /// The same points at the end of the step, with their velocities and impulses.
+    /// Points of the participants at the end of the step, with their velocities and impulses.
     pub(crate) points: Vec<TouchPoint>,
     pub(crate) states: Vec<TouchState>,
     /// Changes of the velocities by a correction [m/s].

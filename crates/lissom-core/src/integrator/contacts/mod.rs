@@ -40,7 +40,7 @@ const BOUND_CHANGE: f64 = 1e-3;
 const KEPT: f64 = 0.5;
 /// Share of its value at the start that the slope along a correction may have at its end without a search.
 const WHOLE: f64 = 0.1;
-/// The same at the end of a search.
+/// Share of its value at the start that the slope along a correction may have at the end of a search.
 const FOUND: f64 = 1e-2;
 /// Largest number of evaluations of a search.
 const MAX_EVALUATIONS: usize = 40;
@@ -72,12 +72,12 @@ pub(crate) struct StepContacts {
 /// Tangent without touches.
 pub(crate) struct SmoothTangent {
     pub(crate) values: TangentValues,
-    /// Its diagonal by coordinate [SI]; empty before it is assembled in a step.
+    /// Diagonal of the tangent by coordinate [SI]; empty before it is assembled in a step.
     pub(crate) diagonal: Vec<f64>,
 }
 
 impl StepContacts {
-    /// Of the parts of a system; none if nothing may touch.
+    /// Contacts of the parts of a system; none if nothing may touch.
     pub(crate) fn of((system, solver): (&System, &'static SolverKind)) -> Option<Box<Self>> {
         if system.contacts().is_empty() {
             return None;

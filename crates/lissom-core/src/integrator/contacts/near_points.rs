@@ -49,7 +49,7 @@ pub(crate) struct NearPoints {
 }
 
 impl NearPoints {
-    /// Of the parts of a system.
+    /// Points of the parts of a system, before the first step.
     pub(super) fn new(system: &System) -> Self {
         let set = system.contacts();
         let mass_of = |node| {

@@ -261,7 +261,7 @@ impl TouchPoint {
         found
     }
 
-    /// The same point at another configuration.
+    /// This point at another configuration.
     pub(crate) fn placed_at(&self, meeting: &Meeting, at: &Kinematics) -> Self {
         let mut nodes = self.nodes;
         for (side, node) in meeting.sides.into_iter().zip(self.nodes) {
@@ -357,7 +357,7 @@ impl TouchPoint {
         if self.phase == Phase::Impact { 0.0 } else { self.friction_of(normal, velocity) }
     }
 
-    /// The same for an impact.
+    /// μ(s) N at a normal force or impulse and a sliding velocity [m/s], also in an impact.
     pub(crate) fn friction_of(&self, normal: f64, velocity: f64) -> f64 {
         self.law.friction.map_or(0.0, |friction| friction.coefficient(velocity) * normal)
     }

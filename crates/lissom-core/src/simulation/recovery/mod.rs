@@ -73,7 +73,7 @@ pub struct Recovered {
     /// The state with velocities that satisfy the constraints and, if forces are needed, with accelerations and multipliers that
     /// follow from the positions.
     pub rates: State,
-    /// The same state with positions whose internal forces are in equilibrium with it, if forces are needed.
+    /// State with these rates, and positions whose internal forces are in equilibrium with it, if forces are needed.
     pub forces: State,
 }
 

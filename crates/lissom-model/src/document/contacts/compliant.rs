@@ -20,7 +20,7 @@ pub struct CompliantLaw {
     pub compliance: Result<Compliance, [Located<String>; 2]>,
     /// What an impact dissipates.
     pub impact: Impact,
-    /// Its friction, whose bristles are added with its points.
+    /// Friction of the contact, whose bristles are added with its points.
     pub friction: Option<ContactFriction>,
     /// Moments against rolling and spinning per normal force [m].
     pub resistance: [f64; 2],

@@ -55,7 +55,7 @@ impl ContactEntry {
         })
     }
 
-    /// Its friction, if it has bristles.
+    /// Friction of the contact, if it has bristles.
     pub(crate) fn bristles(&self) -> Option<&ContactFriction> {
         match &self.law {
             ContactLaw::Rigid(_) => None,

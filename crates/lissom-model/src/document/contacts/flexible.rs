@@ -46,7 +46,7 @@ pub struct FlexibleLaw {
     pub base: Option<FlexiblePart>,
     /// Radii of base and tip, if given [m].
     pub radii: [Option<f64>; 2],
-    /// Of a solid: the set of nodes whose faces touch, otherwise all outer faces.
+    /// Set of nodes of a solid whose faces touch, otherwise all outer faces.
     pub faces: Option<Located<String>>,
     /// Where they touch.
     pub way: Way,
@@ -54,7 +54,7 @@ pub struct FlexibleLaw {
     pub compliance: Compliance,
     /// Relative increase of the normal force per penetration velocity [s/m].
     pub dissipation: f64,
-    /// Its friction, whose bristles are added with its points.
+    /// Friction of the contact, whose bristles are added with its points.
     pub friction: Option<ContactFriction>,
 }
 

@@ -19,7 +19,7 @@ use crate::text::{Node, Table, Value};
 pub(super) struct ContactKind {
     pub(super) word: &'static str,
     summary: &'static str,
-    /// Its keys besides `kind`, `base` and `tip`.
+    /// Keys of the kind besides `kind`, `base` and `tip`.
     pub(super) own_keys: fn() -> Vec<Key>,
     /// Keys of other kinds, with what replaces them.
     instead: &'static [(&'static str, &'static str)],

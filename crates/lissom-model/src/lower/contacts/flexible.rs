@@ -80,12 +80,12 @@ impl OfFlexible<'_> {
         found.ok_or_else(|| self.fault(&format!("there is no shell `{name}`"), ""))
     }
 
-    /// Its law at a point with this share of a length or an area.
+    /// Law of the contact at a point with this share of a length or an area.
     pub(super) fn compliance(&self, share: f64) -> Compliance {
         Compliance { stiffness: self.law.compliance.stiffness * share, ..self.law.compliance }
     }
 
-    /// Its friction at the point of this number, with bristles of its own.
+    /// Friction of the contact at the point of this number, with bristles of its own.
     pub(super) fn friction(&self, number: usize, contribution: &mut Contribution) -> Option<ContactFriction> {
         let name = format!("{}, friction {number}", self.entry.name.value);
         self.law.friction.as_ref().map(|law| law.with_bristles(&name, contribution))

@@ -58,9 +58,9 @@ pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut
 /// Points of contact with friction that touch, of all contacts that are not rigid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrictionPoints {
-    /// Those whose bristles do not slip.
+    /// Number of points whose bristles do not slip.
     pub sticking: usize,
-    /// Those whose bristles slip.
+    /// Number of points whose bristles slip.
     pub sliding: usize,
 }
 

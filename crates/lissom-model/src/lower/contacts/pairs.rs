@@ -27,7 +27,7 @@ pub(super) fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [P
 
 /// A point at which two solids may touch.
 pub(super) struct PointOfSolids<'d> {
-    /// Those of the parts of the contact.
+    /// Solids of the parts of the contact.
     pub(super) solids: [&'d PlacedSolid; 2],
     pub(super) pair: Arc<dyn Pair>,
     /// Base and tip.

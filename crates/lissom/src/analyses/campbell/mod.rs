@@ -65,11 +65,11 @@ pub struct CampbellRequest {
 /// A number of the model file and its values.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Variation {
-    /// Its path.
+    /// Path to the varied number.
     pub path: String,
-    /// Its first value.
+    /// First value of the number.
     pub from: f64,
-    /// Its last value.
+    /// Last value of the number.
     pub to: f64,
     /// Number of values, at least 2.
     pub values: usize,
@@ -138,11 +138,11 @@ impl AnalysisError for CampbellError {
 pub struct PointMode {
     /// The mode, in the axes of the nodes.
     pub mode: Mode,
-    /// Its whirl, in axes at rest.
+    /// Whirl of the mode, in axes at rest.
     pub whirl: Whirl,
     /// Number of its line, from 0.
     pub line: usize,
-    /// Its likeness to the previous mode of its line; none for the first.
+    /// Likeness to the previous mode of the line; none for the first.
     pub assurance: Option<f64>,
 }
 

@@ -14,10 +14,10 @@ use crate::session::{Observed, Session};
 /// Relative change of the number in neighbouring models with the same steps. The error of central differences is proportional
 /// to its square, and to the round-off of a solution over it.
 const APART: f64 = 1e-4;
-/// The same if only initial states and direct effects of the number are compared, with differences of fourth order: at such
+/// Relative change for comparing initial states and direct effects of the number only, with differences of fourth order: at such
 /// a large distance round-off is small.
 const AROUND: f64 = 2e-3;
-/// The same of second order, if models at that distance do not exist.
+/// Relative change for differences of second order, if models at the larger distance do not exist.
 const NEAR: f64 = 3e-5;
 /// The largest displacement of a state over which a column is differentiated [-, rad], the ratio to the next one, and their
 /// number.
@@ -58,15 +58,15 @@ enum Sensitivity {
 struct Neighbour {
     session: Session,
     weight: f64,
-    /// Its number less that of the model.
+    /// Number of the neighbour less that of the model.
     distance: f64,
 }
 
-/// Its outputs.
+/// Outputs of a neighbour.
 struct NeighbourOutputs {
     observed: Observed,
     weight: f64,
-    /// Its number less that of the model.
+    /// Number of the neighbour less that of the model.
     distance: f64,
 }
 
@@ -286,7 +286,7 @@ fn along(
     (above - below) / (2.0 * share)
 }
 
-/// Of differences over decreasing displacements, the one that differs least from the previous one: the first are
+/// Selects, of differences over decreasing displacements, the one that differs least from the previous one: the first are
 /// inaccurate due to the curvature of the column, the last due to round-off.
 fn steadiest(found: &[f64]) -> f64 {
     let pairs = found.windows(2).map(|pair| ((pair[1] - pair[0]).abs(), pair[1]));

@@ -73,11 +73,11 @@ impl Analysis for GradientRequest {
 /// The scalar of an output that is differentiated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
-    /// Its value at the end.
+    /// Value of the output at the end.
     End,
-    /// Its value at this time [s].
+    /// Value of the output at this time [s].
     Time(f64),
-    /// Its largest value over all steps.
+    /// Largest value of the output over all steps.
     Max,
     /// The root of the mean of its square over time.
     Rms,
@@ -226,7 +226,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Its name in `summary.json`.
+    /// Name of the method in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Direct => "carried",
@@ -245,7 +245,7 @@ pub struct GradientReport {
     pub value: f64,
     /// Time of the value, or of the largest one [s]; none for a mean.
     pub time: Option<f64>,
-    /// Its derivatives, in the requested order.
+    /// Derivatives of the value, in the requested order.
     pub derivatives: Vec<Derivative>,
     /// Steps of the run.
     pub steps: usize,

@@ -127,7 +127,7 @@ pub enum ModesError {
     Periodic {
         /// Number of the mode, from 1.
         number: usize,
-        /// Its frequency at this instant [Hz].
+        /// Frequency of the mode at this instant [Hz].
         frequency: f64,
         /// Deviation of the mode from a solution a fraction of a turn later.
         departure: f64,
@@ -191,7 +191,7 @@ pub struct ModeReport {
     pub asked: usize,
     /// The state, in words.
     pub about: String,
-    /// Its time [s].
+    /// Time of the state [s].
     pub time: f64,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
@@ -270,7 +270,7 @@ struct Inconstant {
     departure: f64,
 }
 
-/// Those of the modes `found` of `model` whose coefficients are constant while it rotates, in the axes of the nodes or in axes
+/// The modes `found` of `model` whose coefficients are constant while it rotates, in the axes of the nodes or in axes
 /// at rest, whichever has more of them.
 ///
 /// # Errors

@@ -21,7 +21,7 @@ pub(super) struct Varied {
     text: Arc<ModelText>,
     /// Path to the number in the model file.
     pub(super) path: String,
-    /// Its value in the file.
+    /// Value of the number in the file.
     pub(super) from: f64,
     /// Positions of the model as it is written.
     start: Arc<Kinematics>,

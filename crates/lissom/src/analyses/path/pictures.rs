@@ -31,12 +31,12 @@ impl PathPictures {
         }
     }
 
-    /// The same with this name of the varied quantity.
+    /// Pictures along a path with this name of the varied quantity.
     pub(super) fn along(self, name: &str, scales_loads: bool) -> Self {
         Self { passed: PathValues::new(name), scales_loads, ..self }
     }
 
-    /// The same, writing to `to`.
+    /// Pictures that are written to `to`.
     pub(super) fn writing_to(self, to: Box<dyn Write + Send>) -> Self {
         Self { recorder: self.recorder.writing_to(to), ..self }
     }

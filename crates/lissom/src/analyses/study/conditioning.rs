@@ -19,7 +19,7 @@ pub const MAX_STEPS: usize = 2_000_000;
 pub struct Compared {
     /// Name of its column.
     pub name: &'static str,
-    /// Its label in the drawing.
+    /// Label of the scaling in the drawing.
     label: &'static str,
     by: ScaleBy,
     equilibrated: bool,
@@ -51,7 +51,7 @@ pub struct Row {
     pub step_size: f64,
     /// The varied value, as written.
     pub varied: Option<String>,
-    /// Its result.
+    /// Result of the measurement.
     pub outcome: Result<Measured, StudyError>,
 }
 

@@ -33,7 +33,7 @@ pub struct Row {
     pub step: String,
     /// Step size [s].
     pub step_size: f64,
-    /// Its result.
+    /// Result of the measurement.
     pub outcome: Result<Measured, StudyError>,
 }
 
@@ -43,7 +43,7 @@ pub struct Measured {
     /// Difference after [`STEPS`] steps from the same time reached in eight times as many, relative to the magnitude
     /// of the output there [-].
     pub error: f64,
-    /// The same for the time reached in four times as many: the accuracy of the reference [-].
+    /// Difference after [`STEPS`] steps from the time reached in four times as many: the accuracy of the reference [-].
     pub doubt: f64,
     /// Largest second difference over the last [`NOISY_STEPS`] steps, relative to the largest magnitude of the output
     /// there [-]. It decreases as h² if the output is smooth; the remainder is round-off.

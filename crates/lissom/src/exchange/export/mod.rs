@@ -40,9 +40,9 @@ pub enum ExportError {
 
 /// A format of other programs.
 pub struct Format {
-    /// Its name on the command line.
+    /// Name of the format on the command line.
     pub name: &'static str,
-    /// Its description and the programs that read it.
+    /// Description of the format and the programs that read it.
     pub summary: &'static str,
     /// Name of its one file, or of the folder of its files, below the folder of results.
     pub target: &'static str,

@@ -52,13 +52,13 @@ pub enum Causality {
 /// A variable of a unit, a real number. Its value reference is its index.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Its name: that of the input, parameter or column.
+    /// Name of the variable: that of the input, parameter or column.
     pub name: String,
-    /// Its role.
+    /// Role of the variable.
     pub causality: Causality,
     /// Initial value of inputs and parameters; none for others.
     pub start: Option<f64>,
-    /// Its unit; empty for none.
+    /// Unit of the variable; empty for none.
     pub unit: String,
     /// Recorded quantity of outputs.
     pub quantity: String,
@@ -82,11 +82,11 @@ pub struct Interface {
 pub struct PackedModel {
     /// Version of the program that packed it.
     pub version: String,
-    /// Its name in messages.
+    /// Name of the model in messages.
     pub name: String,
-    /// Its text.
+    /// Text of the model.
     pub text: String,
-    /// Its overrides.
+    /// Overrides of the model.
     pub overrides: Vec<Override>,
     /// Texts of the files that it includes, by path.
     pub included: BTreeMap<String, String>,

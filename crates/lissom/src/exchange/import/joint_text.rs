@@ -9,7 +9,7 @@ use super::{Closure, Freedom, RobotJoint};
 
 /// The coordinate of a robot's joint in the model.
 pub(super) struct Placed {
-    /// Its name in the model.
+    /// Name of the coordinate in the model.
     pub(super) own: String,
     /// The coordinate's initial value [rad, m].
     pub(super) value: f64,

@@ -67,15 +67,15 @@ fn from_z(direction: &Vector3) -> Rotation {
 /// Bodies in a tree of joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
-    /// Its name.
+    /// Name of the robot.
     pub name: String,
     /// Acceleration of gravity, in the axes of the root [m/s²].
     pub gravity: Vector3,
-    /// Its links; the first is the root.
+    /// Links of the robot; the first is the root.
     pub links: Vec<Link>,
     /// Whether the root is the world, which cannot move.
     pub is_root_the_world: bool,
-    /// Its joints, each after the parent joint.
+    /// Joints of the robot, each after the parent joint.
     pub joints: Vec<RobotJoint>,
     /// Joints that close loops.
     pub closures: Vec<Closure>,
@@ -100,7 +100,7 @@ impl Robot {
 /// A joint between two links, which closes a loop of the tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
-    /// Its name.
+    /// Name of the closure.
     pub name: String,
     /// Whether it also locks the rotation, relative to that of the reference position.
     pub locks_rotation: bool,
@@ -109,22 +109,22 @@ pub struct Closure {
     /// The common point in the frame of the first link [m]; at the reference position the second one has it at the same
     /// position.
     pub anchor: Vector3,
-    /// Its location in the description.
+    /// Location of the closure in the description.
     pub source: String,
 }
 
 /// A link with its inertia; none for a frame without mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Its name.
+    /// Name of the link.
     pub name: String,
-    /// Its mass.
+    /// Mass of the link.
     pub inertia: Option<LinkInertia>,
     /// What is drawn of it.
     pub visuals: Vec<Visual>,
     /// Shapes for collisions, which are drawn where no file of `visuals` can be.
     pub collisions: Vec<Visual>,
-    /// Its location in the description, such as `line 3`; may be empty.
+    /// Location of the link in the description, such as `line 3`; may be empty.
     pub source: String,
 }
 
@@ -182,9 +182,9 @@ pub struct JointSpring {
 /// A joint between two links.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotJoint {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
-    /// Its freedom.
+    /// Freedom of the joint.
     pub freedom: Freedom,
     /// Index of the parent link.
     pub parent: usize,
@@ -212,7 +212,7 @@ pub struct RobotJoint {
     pub armature: f64,
     /// The joint that it follows by a factor and an offset.
     pub follows: Option<(String, f64, f64)>,
-    /// Its location in the description, such as `line 3`; may be empty.
+    /// Location of the joint in the description, such as `line 3`; may be empty.
     pub source: String,
 }
 

@@ -14,7 +14,7 @@ const NEAR: f64 = 1e-9;
 pub struct ChosenStart {
     /// Name of the joint.
     pub joint: String,
-    /// Its start position [rad, m].
+    /// Start position of the joint [rad, m].
     pub value: f64,
     /// The excluded value [rad, m].
     pub excluded: f64,

@@ -17,7 +17,7 @@ const DRAWN: [&str; 3] = ["stl", "gltf", "glb"];
 pub struct Visual {
     /// The shape.
     pub shape: VisualShape,
-    /// Its frame in that of the link.
+    /// Frame of the shape in that of the link.
     pub origin: Motion,
 }
 

@@ -186,7 +186,7 @@ impl Mesh {
         self
     }
 
-    /// The same, moved.
+    /// Moves the mesh.
     #[must_use]
     pub fn moved(mut self, pose: &Pose) -> Self {
         for point in &mut self.points {
@@ -195,7 +195,7 @@ impl Mesh {
         self
     }
 
-    /// The same with lengths along the axes multiplied.
+    /// Multiplies lengths along the axes.
     #[must_use]
     pub fn stretched(mut self, by: &Vector3) -> Self {
         for point in &mut self.points {
@@ -211,7 +211,7 @@ impl Mesh {
         self.faces.extend(other.faces.into_iter().map(|face| face.into_iter().map(|k| k + first).collect()));
     }
 
-    /// Its triangles: faces are divided from their first points.
+    /// Triangles of the mesh: faces are divided from their first points.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let fan = |face: &Vec<u32>| {
             let first = face[0];

@@ -10,7 +10,7 @@ use lissom_core::kinematics::{GROUND, NodeId};
 
 /// Minimum half thickness of a section in a picture, relative to the model.
 const MIN_THICKNESS: f64 = 0.0045;
-/// The same for true dimensions: sections of zero thickness have no surface.
+/// Minimum half thickness for true dimensions: sections of zero thickness have no surface.
 const MIN_TRUE: f64 = 1e-4;
 /// Minimum side of a box of a body, relative to the model.
 const MIN_SIDE: f64 = 0.003;
@@ -89,13 +89,13 @@ pub struct Arrow {
 pub struct Piece {
     /// Name of the part, joint, spring or load.
     pub name: String,
-    /// Its role.
+    /// Role of the piece.
     pub role: Role,
-    /// Its colour.
+    /// Colour of the piece.
     pub colour: Colour,
-    /// Its surface, before it is moved.
+    /// Surface of the piece, before it is moved.
     pub mesh: Mesh,
-    /// Its motion.
+    /// Motion of the piece.
     pub carrier: Carrier,
 }
 

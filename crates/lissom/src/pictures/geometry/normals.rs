@@ -20,7 +20,7 @@ pub struct Normals {
 /// An edge of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
-    /// Its points, in ascending order.
+    /// Points of the edge, in ascending order.
     pub ends: [u32; 2],
     /// A face beside it.
     pub face: usize,
@@ -31,7 +31,7 @@ pub struct Edge {
 }
 
 impl Normals {
-    /// Those of a mesh.
+    /// Normals of a mesh.
     pub fn of(mesh: &Mesh) -> Self {
         let mut around = vec![Vec::new(); mesh.points.len()];
         for (index, face) in mesh.faces.iter().enumerate() {

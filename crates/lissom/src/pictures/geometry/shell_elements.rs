@@ -38,7 +38,7 @@ fn of<T: Clone + Default>(values: &[T], element: usize) -> T {
 }
 
 impl ShellElements {
-    /// Those of a shell.
+    /// Elements of a shell.
     pub fn new(shell: &Shell) -> Self {
         let frame = |node: usize| {
             let rotation = Rotation::from_quaternion(shell.axes[node]).unwrap_or_default();

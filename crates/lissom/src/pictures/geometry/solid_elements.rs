@@ -15,7 +15,7 @@ pub struct SolidElements {
 }
 
 impl SolidElements {
-    /// Those of a solid.
+    /// Elements of a solid.
     pub fn new(solid: &ElasticSolid) -> Self {
         let model = if solid.is_rubber { SolidModel::Rubber } else { SolidModel::StVenantKirchhoff };
         let law = SolidLaw { model, shear: solid.shear, bulk: solid.bulk, second: solid.second };

@@ -28,7 +28,7 @@ pub enum Field {
 }
 
 impl Field {
-    /// Its name and unit.
+    /// Name and unit of the field.
     pub fn title(self) -> (&'static str, &'static str) {
         match self {
             Self::Displacement => ("displacement", "m"),

@@ -7,18 +7,18 @@ use crate::pictures::geometry::{Edge, Geometry, Mesh, Normals};
 const SHORTEST: f64 = 0.01;
 /// Brightness relative to that of the surface, and width [pixels], of borders and folds.
 const BORDER: (f64, f64) = (0.45, 1.3);
-/// The same of edges between elements.
+/// Brightness relative to that of the surface, and width [pixels], of edges between elements.
 const INNER: (f64, f64) = (0.82, 0.6);
 
 /// A line on a surface.
 pub(super) struct Line {
-    /// Its two points.
+    /// Two points of the line.
     pub(super) ends: [u32; 2],
     /// A face beside it, whose colour it has.
     pub(super) face: usize,
-    /// Its brightness.
+    /// Brightness of the line.
     pub(super) bright: f64,
-    /// Its width [pixels].
+    /// Width of the line [pixels].
     pub(super) width: f64,
 }
 

@@ -42,9 +42,9 @@ pub fn shade_of(colour: Colour) -> Shade {
 /// A projected face or edge: points to the right and upward [m], and its colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
-    /// Its points.
+    /// Points of the face.
     pub points: Vec<[f64; 2]>,
-    /// Its shaded colour.
+    /// Shaded colour of the face.
     pub shade: Shade,
     /// Width of an edge [pixels]; none for a face.
     pub width: Option<f64>,

@@ -34,7 +34,7 @@ const LINE: f64 = 22.0;
 const FOOT: f64 = 64.0;
 /// Maximum width and height of the area of panels.
 const MAX_EXTENT: [f64; 2] = [1200.0, 900.0];
-/// The same for an animation.
+/// Maximum width and height of the area of panels of an animation.
 const MAX_MOVING: [f64; 2] = [640.0, 480.0];
 /// Maximum number of panels.
 const MAX_PANELS: usize = 100;

@@ -32,7 +32,7 @@ const ONLY_FOR_FIELDS: [&str; 4] = ["axes", "directions", "stiffness", "cells"];
 pub struct Notice {
     /// `warning` or `error`.
     kind: &'static str,
-    /// Its text.
+    /// Text of the notice.
     text: String,
     /// Whether it is an excerpt of a file, shown verbatim.
     is_code: bool,
@@ -80,7 +80,7 @@ impl Notice {
         }
     }
 
-    /// Its text.
+    /// Text of the notice.
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
@@ -90,7 +90,7 @@ impl Notice {
         Self { code: of("code"), remedy: of("remedy"), part: of("part"), time: of("time"), ..self }
     }
 
-    /// The same, with lines of the model in it.
+    /// This notice, with lines of the model in it.
     #[must_use]
     pub fn with_code(self) -> Self {
         Self { is_code: true, ..self }

@@ -93,12 +93,12 @@ impl Element {
         self
     }
 
-    /// Its location in the description.
+    /// Location of the element in the description.
     pub(super) fn location(&self) -> &str {
         &self.location
     }
 
-    /// Its tag and location, for reports of what is omitted.
+    /// Tag and location of the element, for reports of what is omitted.
     pub(super) fn words(&self) -> String {
         format!("<{}> ({})", self.tag, self.location)
     }

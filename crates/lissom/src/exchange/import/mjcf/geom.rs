@@ -48,7 +48,7 @@ const DENSITY: f64 = 1000.0;
 
 /// A shape.
 pub(super) struct Geom {
-    /// Its group.
+    /// Group of the shape.
     pub(super) group: f64,
     /// Whether it may collide with others.
     pub(super) touches: bool,
@@ -62,7 +62,7 @@ impl Geom {
         Ok(Self { group: element.number("group", 0.0)?, touches, element })
     }
 
-    /// Its mass in the axes of its body, if it has any.
+    /// Mass of the shape in the axes of its body, if it has any.
     ///
     /// # Errors
     /// If the mass is that of a mesh or of a shell.
@@ -97,7 +97,7 @@ impl Geom {
         Ok(Some(LinkInertia { mass, centre: placed.position, inertia }))
     }
 
-    /// Its frame and its dimensions; for shapes between two points the length is along z.
+    /// Frame and dimensions of the shape; for shapes between two points the length is along z.
     fn placed(&self, kind: &str, angles: &Angles) -> Result<(Motion, [f64; 3]), ImportError> {
         let element = &self.element;
         let mut sizes = element.list("size")?.unwrap_or_default();
