@@ -24,8 +24,8 @@ pub struct Compliance {
 }
 
 impl Compliance {
-    /// Of two balls, or of a ball on a plane, by the theory of Hertz: from the sum of the curvatures [1/m], and Young's modulus [Pa]
-    /// and Poisson's ratio of both materials.
+    /// Compliance of two balls, or of a ball on a plane, by the theory of Hertz: from the sum of the curvatures [1/m], and from Young's
+    /// modulus [Pa] and Poisson's ratio of both materials.
     ///
     /// ```text
     /// k = 4/3 E √R,      1/E = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂,      1/R = 1/R₁ + 1/R₂
@@ -56,7 +56,7 @@ impl Compliance {
         [elastic * factor, slope * factor, elastic * dissipation]
     }
 
-    /// The same with a damping c: the sum never pulls.
+    /// Force with a damping c and its derivatives: the sum never pulls.
     pub fn damped_force(&self, depth: f64, rate: f64, [dissipation, damping]: [f64; 2]) -> [f64; 3] {
         let [force, stiffness, slope] = self.force(depth, rate, dissipation);
         if damping == 0.0 {

@@ -13,7 +13,7 @@ pub fn tolerance(time: f64, duration: f64) -> f64 {
     TIME_TOLERANCE * duration + round_off::OPERATIONS * time.abs()
 }
 
-/// The same for an instant at a distance of `elapsed` [s] from the start in an external clock that has added steps of
+/// Distance below which instants are equal if one is `elapsed` [s] from the start in an external clock that has added steps of
 /// `duration` [s]: the rounding errors of all additions may have one sign.
 ///
 /// ```text

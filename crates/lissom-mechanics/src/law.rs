@@ -15,11 +15,11 @@ pub const EVERYTHING: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 /// Bounds of a function of a parameter σ, and of its first and second derivative, over an interval of σ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Enclosure {
-    /// Of the value.
+    /// Bounds of the value.
     pub value: Interval,
-    /// Of the first derivative.
+    /// Bounds of the first derivative.
     pub first: Interval,
-    /// Of the second derivative; every number where there may be a kink or a jump.
+    /// Bounds of the second derivative; every number where there may be a kink or a jump.
     pub second: Interval,
 }
 
@@ -105,7 +105,7 @@ pub trait ScalarLaw {
         true
     }
 
-    /// The same with bounds of its derivatives along a path, given those of time and of the arguments. Default: none are known.
+    /// Bounds of the value and its derivatives along a path, given those of time and of the arguments. Default: none are known.
     fn enclosure(&self, _time: &Enclosure, _arguments: &[Enclosure]) -> Option<Enclosure> {
         None
     }

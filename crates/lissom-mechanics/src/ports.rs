@@ -66,12 +66,12 @@ impl PortDeclaration {
         Self { required: false, ..Self::required(key, holds, summary) }
     }
 
-    /// The same with these words in a list of all keys.
+    /// This port with these words in a list of all keys.
     pub const fn listed(self, listed: &'static str) -> Self {
         Self { listed, ..self }
     }
 
-    /// The same with a line of a model file.
+    /// This port with a line of a model file.
     pub const fn sample(self, sample: &'static str) -> Self {
         Self { sample, ..self }
     }
@@ -164,7 +164,7 @@ impl Ports {
     pub const ARM: Self = Self(&[BASE, TIP, AT_HINGE, AXIS]);
     /// Two nodes at one location, and two perpendicular axes.
     pub const TWO_AXES: Self = Self(&[BASE, TIP, AT, AXIS, SECOND_AXIS]);
-    /// The same, by default the first two axes of the model.
+    /// Two nodes and two perpendicular axes, by default the first two axes of the model.
     pub const AXES_OF_MODEL: Self = Self(&[
         BASE,
         TIP,
@@ -184,7 +184,7 @@ impl Ports {
     ]);
     /// Two nodes, each at a location of its own.
     pub const TWO_LOCATIONS: Self = Self(&[BASE, TIP, AT_BASE, AT_TIP]);
-    /// The same, with axes in both nodes, which cannot be point masses.
+    /// Two nodes, each at a location of its own, with axes in both, which cannot be point masses.
     pub const TWO_FRAMES: Self = Self(&[BASE.with_axes(), TIP.with_axes(), AT_BASE, AT_TIP]);
     /// One node.
     pub const ONE_NODE: Self = Self(&[ON, AT_NODE]);

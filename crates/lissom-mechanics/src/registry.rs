@@ -106,7 +106,7 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     }
     /// Passes its switching functions to `visit`, in their order.
     fn switches(&self, _first: f64, _second: f64, _sides: &[f64], _visit: &mut dyn FnMut(Switch)) {}
-    /// The same as [`evaluate`](Self::evaluate), continued smoothly from the given sides of its switching functions: 1 above
+    /// Evaluates the function as [`evaluate`](Self::evaluate), continued smoothly from the given sides of its switching functions: 1 above
     /// zero, -1 below, 0 if the function itself decides. `sides` is empty if no side is known.
     fn continued(&self, first: f64, second: f64, _sides: &[f64]) -> [f64; 3] {
         self.evaluate(first, second)
@@ -169,7 +169,7 @@ pub enum ParameterType {
     GlobalVector,
     /// Three finite numbers, not all zero, of which only the direction counts. In model axes, and transformed with the part.
     Direction,
-    /// The same with a default: this axis of the part in which the entry is written. Always given to the kind.
+    /// Direction with a default: this axis of the part in which the entry is written. Always given to the kind.
     DirectionOr(ModelAxis),
     /// True or false.
     Flag,
@@ -276,7 +276,7 @@ pub struct Declared<T> {
     pub unit: &'static str,
     /// One sentence, without the default.
     pub summary: &'static str,
-    /// Its value where it is omitted; none if that follows from others or means that something is absent.
+    /// Value where the parameter is omitted; none if that follows from others or means that something is absent.
     pub default: Option<DefaultValue>,
 }
 
@@ -314,31 +314,31 @@ impl<T> Declared<T> {
         self
     }
 
-    /// The same with this number as its default.
+    /// This parameter with this number as its default.
     #[must_use]
     pub const fn or_number(self, value: f64) -> Self {
         self.or(DefaultValue::Number(value))
     }
 
-    /// The same with this count as its default.
+    /// This parameter with this count as its default.
     #[must_use]
     pub const fn or_count(self, value: usize) -> Self {
         self.or_number(value as f64)
     }
 
-    /// The same with this default.
+    /// This parameter with this flag as its default.
     #[must_use]
     pub const fn or_flag(self, value: bool) -> Self {
         self.or(DefaultValue::Flag(value))
     }
 
-    /// The same with this word as its default.
+    /// This parameter with this word as its default.
     #[must_use]
     pub const fn or_word(self, word: &'static str) -> Self {
         self.or(DefaultValue::Word(word))
     }
 
-    /// Its summary with the default.
+    /// Summary with the default.
     pub fn meaning(&self) -> String {
         DefaultValue::in_words(self.default, self.summary)
     }
@@ -453,7 +453,7 @@ impl Parameters {
         Self::default()
     }
 
-    /// The same, with the defaults of these declarations.
+    /// These parameters, with the defaults of these declarations.
     #[must_use]
     pub fn declared(&self, declared: &'static [Parameter]) -> Self {
         Self { values: self.values.clone(), declared }
@@ -483,7 +483,7 @@ impl Parameters {
         })
     }
 
-    /// The same except for some.
+    /// These parameters except for some.
     #[must_use]
     pub fn without<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Self {
         let mut rest = self.clone();

@@ -24,9 +24,9 @@ pub struct Entry {
     pub variant: &'static str,
     /// Whether it is a warning.
     pub severity: Severity,
-    /// Its message, with placeholders of values in braces.
+    /// Message of the diagnostic, with placeholders of values in braces.
     pub message: &'static str,
-    /// Its meaning.
+    /// Meaning of the diagnostic.
     pub meaning: &'static str,
     /// General remedy: a sentence, or that of its messages.
     pub advice: &'static str,
@@ -57,13 +57,13 @@ pub enum Value {
 /// A warning or failure, for programs. It is rendered as "cause; remedy".
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Its code in the catalogue.
+    /// Code of the diagnostic in the catalogue.
     pub code: &'static str,
     /// Whether it is a warning.
     pub severity: Severity,
     /// Time [s], if there is one.
     pub time: Option<f64>,
-    /// Its subject.
+    /// Subject of the diagnostic.
     pub subject: Option<Subject>,
     /// Values by name, without the time.
     pub values: Vec<(&'static str, Value)>,
@@ -75,7 +75,7 @@ pub struct Diagnostic {
 
 /// A type of warning or failure.
 pub trait Diagnose {
-    /// Its code, time, subject, values, cause and remedy.
+    /// Code, time, subject, values, cause and remedy.
     fn diagnostic(&self) -> Diagnostic;
 }
 
@@ -91,13 +91,13 @@ impl Diagnostic {
         crate::diagnostics::catalogued::diagnostic(entry, Vec::new(), cause.into(), remedy.into())
     }
 
-    /// The same, in a wider context: `context` precedes the cause.
+    /// This diagnostic in a wider context: `context` precedes the cause.
     #[must_use]
     pub fn within(self, context: &str) -> Self {
         Self { cause: format!("{context}: {}", self.cause), ..self }
     }
 
-    /// The same at a time [s].
+    /// This diagnostic at a time [s].
     #[must_use]
     pub fn at(self, time: f64) -> Self {
         Self { time: Some(time), ..self }

@@ -62,7 +62,7 @@ impl Contribution {
         Self::to(model).with(element)
     }
 
-    /// The same with another element.
+    /// Adds another element.
     pub fn with<E: Element>(mut self, element: E) -> Self {
         self.elements.push(Box::new(element));
         self
@@ -93,7 +93,7 @@ impl Contribution {
         state
     }
 
-    /// The same for an entry without outputs of its own.
+    /// This contribution for an entry without outputs of its own.
     pub(crate) fn without_outputs(self) -> Self {
         Self { has_outputs: false, ..self }
     }

@@ -28,7 +28,7 @@ pub(crate) const PRELOAD_FORCE: Parameter = optional(
     "Force at the start, positive if it pulls, instead of the position without force.",
 );
 
-/// The same for angles.
+/// The moment at the start, for angles.
 pub(crate) const PRELOAD_MOMENT: Parameter = optional(
     "preload",
     Number,
@@ -44,7 +44,7 @@ pub(crate) const SIDE_OF_LENGTH: Parameter = unitless(
 )
 .or_word("both");
 
-/// The same for angles.
+/// On which side of the free angle it acts, for angles.
 pub(crate) const SIDE_OF_ANGLE: Parameter = unitless(
     "side",
     ParameterType::Choice(&["both", "positive", "negative"]),

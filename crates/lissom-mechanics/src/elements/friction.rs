@@ -161,7 +161,7 @@ impl Spring for Friction {
 }
 
 impl StrainSlopes for Friction {
-    /// Of the bristle alone: the force of the coordinate is that of the bristle.
+    /// Slopes of the strain energy of the bristle alone: the force of the coordinate is that of the bristle.
     fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
         out[1] += self.stiffness * fall.coordinates[self.coordinates[1]].value;
     }

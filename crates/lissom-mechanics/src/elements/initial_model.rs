@@ -30,7 +30,7 @@ pub struct Coordinate {
     pub value: f64,
     /// [m/s, rad/s].
     pub rate: f64,
-    /// Its quantity.
+    /// Quantity of the coordinate.
     pub quantity: Quantity,
 }
 

@@ -74,14 +74,14 @@ pub struct ElementKind {
     pub sample: &'static str,
     /// Parameters in addition to its ports.
     pub parameters: &'static [Parameter],
-    /// Its ports.
+    /// Ports of the kind.
     pub ports: Ports,
-    /// Its elements, states and coordinates, for the model built so far.
+    /// Constructor of the elements, states and coordinates, for the model built so far.
     pub build: fn(&InitialModel, Attached, &Parameters) -> Result<Contribution, ParameterError>,
 }
 
 impl ElementKind {
-    /// Its elements, states and coordinates, for the model built so far.
+    /// Elements, states and coordinates of the kind, for the model built so far.
     ///
     /// # Errors
     /// If a parameter or a port is missing or invalid, or a node is a point mass where a rotation is needed.

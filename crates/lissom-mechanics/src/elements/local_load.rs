@@ -65,7 +65,7 @@ pub struct LocalFunction {
     pub subject: Arc<Subject>,
     /// The function.
     pub function: Arc<dyn SignalFunction>,
-    /// Its arguments.
+    /// Arguments of the function.
     pub arguments: Vec<LocalArgument>,
 }
 

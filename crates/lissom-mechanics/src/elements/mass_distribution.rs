@@ -34,7 +34,7 @@ pub struct MassDistribution<const NODES: usize, const POINTS: usize> {
 }
 
 impl<const NODES: usize> MassDistribution<NODES, NODES> {
-    /// The same at nodes without rotations.
+    /// Mass distribution at nodes without rotations.
     pub fn of_points(
         nodes: [NodeId; NODES],
         consistent: Box<[[f64; NODES]; NODES]>,

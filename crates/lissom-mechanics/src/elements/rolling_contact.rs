@@ -36,7 +36,7 @@ use crate::wheels::wheel_on_plane::{Contact, DIRECTIONS};
 
 /// Sliding velocities below this are those of rolling, where the law is linear [m/s].
 const ROLLING_SPEED: f64 = 1e-9;
-/// The same of rolling rates, relative to ω_s.
+/// Rolling rates below this, relative to ω_s, are those of standstill.
 const STANDSTILL: f64 = 1e-7;
 
 /// Registry entry.

@@ -87,7 +87,7 @@ pub trait AnyBatch: Any + Send + Sync {
     }
     /// Adds the forces of all items to the rows of the system [N, N m].
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
-    /// The same on several threads.
+    /// Adds the forces of all items on several threads.
     fn forces_side_by_side(&self, at: &Kinematics, _threads: &mut Threads, out: &mut [f64]) {
         self.forces(at, out);
     }
@@ -145,9 +145,9 @@ impl dyn AnyBatch {
 /// The index of an element in its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ElementId {
-    /// Its batch; none for a load scaled by a signal.
+    /// Batch of the element; none for a load scaled by a signal.
     pub batch: Option<usize>,
-    /// Its index in the batch, or among loads scaled by signals.
+    /// Index of the element in the batch, or among loads scaled by signals.
     pub item: usize,
 }
 
@@ -155,7 +155,7 @@ pub struct ElementId {
 pub trait AnyElement: Send + Sync {
     /// Adds it to the batch of its kind, or begins one.
     fn join(self: Box<Self>, batches: &mut Vec<Box<dyn AnyBatch>>) -> ElementId;
-    /// The same as a unit load, scaled by a signal.
+    /// Converts the element to a unit load, scaled by a signal.
     fn into_load(self: Box<Self>) -> Box<dyn Element>;
 }
 

@@ -15,9 +15,9 @@ use crate::signals::measurement::Gradient;
 /// Penetrations of two sides of a surface by a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hollow {
-    /// Of the nearest side [m].
+    /// Penetration of the nearest side [m].
     pub depth: f64,
-    /// Of the other side, after a displacement of the ball out of the nearest one [m].
+    /// Penetration of the other side, after a displacement of the ball out of the nearest one [m].
     pub remaining: f64,
 }
 
@@ -118,7 +118,7 @@ pub trait Spring: Element {
         None
     }
 
-    /// Its two nodes and the vector between its ends, if its force would have a direction at zero length, where that reverses.
+    /// Two nodes and the vector between the ends, if the force would have a direction at zero length, where that reverses.
     /// Default: it has none.
     fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
         None
@@ -180,11 +180,11 @@ pub trait Deformable: Element {
         false
     }
 
-    /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
+    /// Deformation rate of the element [1/s]: the largest relative speed of its nodes over their distance, and one of the two
     /// nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
 
-    /// Its two nodes with the largest relative rotation, and the cosine of half its angle: it cannot distinguish a rotation from the
+    /// Two nodes with the largest relative rotation, and the cosine of half its angle: it cannot distinguish a rotation from the
     /// opposite one.
     fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
 

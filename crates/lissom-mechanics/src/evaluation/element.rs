@@ -182,7 +182,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         Energy::default()
     }
 
-    /// Its capabilities, the same for all elements of its kind. Default: none.
+    /// Capabilities of the element, the same for all elements of its kind. Default: none.
     fn capabilities(&self) -> Capabilities<'_> {
         Capabilities::default()
     }

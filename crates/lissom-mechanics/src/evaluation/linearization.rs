@@ -26,9 +26,9 @@ pub struct Linearization {
 /// Storage for derivatives of one element or joint at a time.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    /// Of an element.
+    /// Derivatives of an element.
     pub local: Tangents,
-    /// Of a joint.
+    /// Derivatives of a joint.
     pub joint: Derivatives,
 }
 

@@ -13,21 +13,21 @@ use crate::joints::derivatives::{Derivatives, OWN, TIP};
 /// Factors of the derivatives in a tangent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend<T> {
-    /// Of ∂/∂ position.
+    /// Factor of ∂/∂ position.
     pub place: f64,
-    /// Of ∂/∂ twist.
+    /// Factor of ∂/∂ twist.
     pub rate: T,
-    /// Of ∂/∂ acceleration.
+    /// Factor of ∂/∂ acceleration.
     pub acceleration: T,
-    /// Of BᵀWB.
+    /// Factor of BᵀWB.
     pub augmented: f64,
-    /// Of B and Bᵀ, and of derivatives of elements' forces with respect to multipliers.
+    /// Factor of B and Bᵀ, and of derivatives of elements' forces with respect to multipliers.
     pub constraint: f64,
-    /// Of B in the rows of constraints of velocities.
+    /// Factor of B in the rows of constraints of velocities.
     pub slip: T,
-    /// Of ∂(B v)/∂ position there.
+    /// Factor of ∂(B v)/∂ position there.
     pub turning: f64,
-    /// Of BᵀWB of constraints of velocities.
+    /// Factor of BᵀWB of constraints of velocities.
     pub slip_augmented: f64,
 }
 

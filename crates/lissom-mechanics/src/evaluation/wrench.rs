@@ -23,9 +23,9 @@ pub enum WrenchAxes {
     /// Global ones.
     #[default]
     Ground,
-    /// Those of the frame that the base carries.
+    /// Axes of the frame that the base carries.
     Base,
-    /// Those of the frame that the tip carries.
+    /// Axes of the frame that the tip carries.
     Tip,
 }
 

@@ -36,16 +36,16 @@ pub struct AttachedJoint {
     /// The joint frames of base and tip in whose axes outputs express motions and reactions: `frames`, except those of the
     /// last joint of a prescribed motion, whose base is a node within the chain. Their tip frames share one origin.
     pub output_frames: [CarriedFrame; 2],
-    /// Its coordinates; the first `joint.coordinates().len()` count.
+    /// Coordinates of the joint; the first `joint.coordinates().len()` count.
     pub coordinates: Vec<CoordinateId>,
     /// Position of its first multiplier among all multipliers.
     pub first_multiplier: usize,
-    /// Its kind with parameters.
+    /// Kind of the joint with parameters.
     pub joint: Box<dyn AnyJoint>,
 }
 
 impl AttachedJoint {
-    /// The same with another joint.
+    /// This attachment with another joint.
     pub(super) fn with_joint(&self, joint: Box<dyn AnyJoint>) -> Self {
         Self {
             name: self.name.clone(),
@@ -152,7 +152,7 @@ impl AttachedJoint {
         self.configuration_from(self.start(increments.start), increments)
     }
 
-    /// The same with known relative rotation and position at the start.
+    /// Relative motion and own coordinates, with known relative rotation and position at the start.
     pub(crate) fn configuration_from(
         &self,
         start: (Matrix3, Vector3),

@@ -370,7 +370,7 @@ impl Pack {
         }
     }
 
-    /// Those of the nodes. Compiled once for joints of all kinds.
+    /// Gathers the changes of the nodes. Compiled once for joints of all kinds.
     #[inline(never)]
     fn gather_changes(&self, lanes: usize, point: &Point<'_>, changes: &mut [[Block; 12]; 2]) {
         for side in 0..2 {
@@ -532,7 +532,7 @@ fn begin(processor: pulp::Arch, begin: Begin<'_>) {
 
 struct Begin<'a> {
     packs: &'a [Pack],
-    /// Those of the kind.
+    /// Coordinates of the kind.
     coordinates: &'a [Coordinate],
     start: &'a Kinematics,
     out: &'a mut [StartBlock],

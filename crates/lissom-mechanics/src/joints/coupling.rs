@@ -23,15 +23,15 @@ use crate::round_off;
 pub struct Coupling {
     /// Name in the model.
     pub name: String,
-    /// Its coordinates.
+    /// Coordinates of the coupling.
     pub coordinates: Vec<CoordinateId>,
     /// The quantity of each of them.
     pub quantities: Vec<Quantity>,
     /// The quantity of its equation.
     pub quantity: Quantity,
-    /// Its multiplier among all.
+    /// Multiplier of the equation among all.
     pub multiplier: usize,
-    /// Its equation.
+    /// Equation of the coupling.
     pub relation: Arc<dyn Relation>,
     /// Factor of the equation, so that its largest derivative at the start is 1.
     pub scale: f64,

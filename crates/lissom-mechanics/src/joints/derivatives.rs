@@ -58,7 +58,7 @@ impl Side {
         Self { turning, shifting }
     }
 
-    /// The same with respect to increments of the node instead of body variations.
+    /// This side with respect to increments of the node instead of body variations.
     fn through(&self, chart: &IncrementTangent) -> Self {
         Self {
             turning: self.turning * chart.turning,

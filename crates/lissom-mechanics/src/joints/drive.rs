@@ -15,7 +15,7 @@ pub struct Drive {
     pub prescribed: Prescribed,
     /// The quantity of its coordinate.
     pub quantity: Quantity,
-    /// Its multiplier, the drive's moment or force, among all multipliers.
+    /// Multiplier of the drive, its moment or force, among all multipliers.
     pub multiplier: usize,
 }
 

@@ -37,7 +37,7 @@ pub struct RelativeMotion {
 }
 
 impl FramePair {
-    /// Of the frames of base and tip.
+    /// Pair of the frames of base and tip.
     pub fn new(frames: [CarriedFrame; 2]) -> Self {
         Self { nodes: frames.map(|frame| frame.node), frames }
     }

@@ -39,11 +39,11 @@ pub const KIND: JointKind = JointKind {
 /// A coordinate of no joint between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeCoordinate {
-    /// Its name and quantity.
+    /// Name and quantity of the coordinate.
     pub coordinate: Coordinate,
     /// At the start [m, rad].
     pub value: f64,
-    /// Its rate at the start [m/s, rad/s].
+    /// Rate of the coordinate at the start [m/s, rad/s].
     pub rate: f64,
 }
 

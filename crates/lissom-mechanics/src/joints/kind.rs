@@ -58,8 +58,8 @@ pub struct JointKind {
     pub sample: &'static str,
     /// Parameters in addition to its ports.
     pub parameters: &'static [Parameter],
-    /// Its ports.
+    /// Ports of the kind.
     pub ports: Ports,
-    /// Its construction.
+    /// Construction of the joint.
     pub build: Build,
 }

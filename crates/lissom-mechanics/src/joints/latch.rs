@@ -19,11 +19,11 @@ pub struct Latch {
     pub name: String,
     /// The coordinate.
     pub coordinate: CoordinateId,
-    /// Its quantity.
+    /// Quantity of the coordinate.
     pub quantity: Quantity,
     /// The input.
     pub engaged: DiscreteValueId,
-    /// Its multiplier, the force on the coordinate on the left-hand side, among all multipliers.
+    /// Multiplier of the latch, the force on the coordinate on the left-hand side, among all multipliers.
     pub multiplier: usize,
 }
 

@@ -120,7 +120,7 @@ pub type Branch = fn(&Relative) -> f64;
 pub struct Coordinate {
     /// Name within the joint.
     pub name: &'static str,
-    /// Its quantity.
+    /// Quantity of the coordinate.
     pub quantity: Quantity,
 }
 
@@ -184,7 +184,7 @@ impl EquationCount {
 
 /// The equations of a joint. Frequently evaluated formulas are written for one number or several side by side.
 pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
-    /// Its algebraic coordinates.
+    /// Algebraic coordinates of the joint.
     const COORDINATES: &'static [Coordinate] = &[];
     /// Maximum number of equations of the kind; results for further ones are ignored.
     const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 3 };

@@ -8,7 +8,7 @@ use crate::registry::Function;
 pub struct Prescribed {
     /// The driven coordinate.
     pub coordinate: CoordinateId,
-    /// Its value as a function of time [rad, m].
+    /// Value of the coordinate as a function of time [rad, m].
     pub value: Function,
 }
 

@@ -78,7 +78,7 @@ impl<R: Real> JointRotation<R> {
         [x, y, z]
     }
 
-    /// Its (∂c/∂(η, φ))ᵀ μ: the moment m, and -Sᵀ E m on the coordinates.
+    /// (∂c/∂(η, φ))ᵀ μ of the rotation: the moment m, and -Sᵀ E m on the coordinates.
     #[inline(always)]
     pub(crate) fn matches_moments(
         &self,

@@ -21,7 +21,7 @@ use super::{Branch, Coordinate, EquationCount, Joint, MAX_CONSTANTS, MAX_COORDIN
 /// Names of the equations of a point or line and of a rotation; those of a plane and of each part alone are among them.
 const EQUATIONS: [&str; 6] =
     ["position 1", "position 2", "position 3", "rotation 1", "rotation 2", "rotation 3"];
-/// Those of a point and of shafts.
+/// Names of the equations of a point and of shafts.
 const OF_SHAFTS: [&str; 4] = ["position 1", "position 2", "position 3", "rotation 3"];
 
 /// Where the tip's point is.
@@ -54,7 +54,7 @@ pub(crate) enum Turn {
 
 /// What distinguishes such a joint from the others.
 pub(crate) trait Product: Copy + Send + Sync + std::fmt::Debug + 'static {
-    /// Its algebraic coordinates.
+    /// Algebraic coordinates of the joint.
     const COORDINATES: &'static [Coordinate] = &[];
     /// Where the tip's point is.
     const PLACE: Place = Place::Point;

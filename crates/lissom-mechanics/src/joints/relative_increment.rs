@@ -115,7 +115,7 @@ pub struct FrameChange<R> {
 }
 
 impl<R: Real> FrameChange<R> {
-    /// The same change for a frame fixed at `offset`, with its axes.
+    /// Change of a frame fixed at `offset`, with its axes.
     #[inline(always)]
     #[must_use]
     pub(crate) fn carried_at(self, axes: Option<Axes<R>>, offset: Triple<R>) -> Self {
@@ -135,11 +135,11 @@ impl<R: Real> FrameChange<R> {
 pub struct RelativeIncrement<R> {
     /// Relative rotation at the start.
     pub start_rotation: Axes<R>,
-    /// Its change.
+    /// Change of the relative rotation.
     pub rotation_change: Axes<R>,
     /// P: present relative position in the tip's axes [m].
     pub place: Triple<R>,
-    /// Its change [m].
+    /// Change of P [m].
     pub place_change: Triple<R>,
     /// Change of the relative position in the base's axes [m].
     pub position_change: Triple<R>,
@@ -221,7 +221,7 @@ impl<R: Real> Angle<R> {
 pub struct CoordinateIncrement<R> {
     /// Changes since the start of the step [rad, m].
     pub change: [R; MAX_COORDINATES],
-    /// Those that are angles.
+    /// Coordinates that are angles.
     pub angles: [Angle<R>; MAX_COORDINATES],
 }
 

@@ -85,12 +85,12 @@ impl CarriedPoint {
         &at.nodes[self.node]
     }
 
-    /// Its position [m].
+    /// Position of the point [m].
     pub fn place(&self, at: &Kinematics) -> Vector3 {
         self.motion(at).frame.transform_point(&self.point)
     }
 
-    /// Its change of position since the start of a step, without cancellation [m].
+    /// Change of position of the point since the start of a step, without cancellation [m].
     pub(super) fn shift(&self, increments: &Increments<'_>) -> Vector3 {
         let change = &increments.nodes[self.node];
         let local = change.shift + change.turn * self.point;
@@ -124,7 +124,7 @@ pub struct Slider {
     pub coordinate: CoordinateId,
     /// Directions of the tip that remain perpendicular to the line or to an axis of the sections.
     pub alignments: Vec<Alignment>,
-    /// Its first multiplier among all; three are the force on the beam in inertial axes [N], and one is for each direction.
+    /// First multiplier of the slider among all; three are the force on the beam in inertial axes [N], and one is for each direction.
     pub first_multiplier: usize,
 }
 
@@ -205,7 +205,7 @@ impl Slider {
         self.line.length()
     }
 
-    /// Its present location.
+    /// Present location of the slider.
     pub fn place(&self, at: &Kinematics) -> LinePosition {
         let s = at.coordinates[self.coordinate].value;
         LinePosition { support: self.line.at(s) }
@@ -220,7 +220,7 @@ impl Slider {
         place.weights(derivative).map(|(k, weight)| (k, -weight))
     }
 
-    /// The same for c itself, including the tip.
+    /// Local nodes with their factors for c itself, including the tip.
     fn all(place: &LinePosition) -> impl Iterator<Item = (usize, f64)> {
         Self::on_beam(place, 0).chain([(TIP, 1.0)])
     }

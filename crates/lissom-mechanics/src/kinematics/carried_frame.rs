@@ -7,7 +7,7 @@ use super::{Kinematics, NodeId};
 /// A joint frame: a frame fixed to a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedFrame {
-    /// Its node.
+    /// Node of the frame.
     pub node: NodeId,
     /// The frame relative to the node's frame.
     pub offset: Motion,

@@ -13,7 +13,7 @@ pub struct LocalDerivatives<const N: usize> {
     pub coordinates: Vec<CoordinateId>,
     /// With respect to positions: six columns for each node, as body variations, then one for each coordinate.
     pub by_place: Vec<SVector<f64, N>>,
-    /// The same with respect to twists and rates.
+    /// Derivatives with respect to twists and rates, in the same columns.
     pub by_rate: Vec<SVector<f64, N>>,
     /// With respect to multipliers, from the first one of the joint.
     pub by_multiplier: Vec<SVector<f64, N>>,

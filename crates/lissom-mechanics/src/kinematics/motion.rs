@@ -126,7 +126,7 @@ impl MotionChange {
         Motion::new(Rotation::exponential(&theta), self.shift).logarithm()
     }
 
-    /// The same change for a frame fixed at `offset`: O⁻¹ (E, p) O.
+    /// Change of a frame fixed at `offset`: O⁻¹ (E, p) O.
     #[must_use]
     pub fn carried_at(&self, offset: &Motion) -> Self {
         if offset.rotation == Rotation::IDENTITY {

@@ -26,11 +26,11 @@ pub const STAGES: usize = 2;
 /// From the start of a step through two stages to its end.
 #[derive(Clone, Copy, Debug)]
 pub struct StepStages<'a> {
-    /// Its start.
+    /// Start of the step.
     pub start: &'a Kinematics,
     /// Positions, velocities and accelerations at the stages.
     pub stages: [&'a Kinematics; STAGES],
-    /// Its end.
+    /// End of the step.
     pub end: &'a Kinematics,
     /// Change of every node's motion from start to end.
     pub changes: &'a [MotionChange],

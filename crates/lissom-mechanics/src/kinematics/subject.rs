@@ -29,7 +29,7 @@ impl Subject {
         Self { kind: Cow::Borrowed(""), name: String::new(), words: words.into() }
     }
 
-    /// The same entry with other words for sentences.
+    /// This entry with other words for sentences.
     #[must_use]
     pub fn called(self, words: impl Into<String>) -> Self {
         Self { words: words.into(), ..self }

@@ -8,7 +8,7 @@
 pub struct Switch {
     /// It has the sign of the known side until the law switches.
     pub number: f64,
-    /// Of a law with levels: the side at the configuration, and that beyond the nearer end of the known level.
+    /// Side at the configuration, and that beyond the nearer end of the known level, of a law with levels.
     pub levels: Option<[f64; 2]>,
 }
 
@@ -19,7 +19,7 @@ impl From<f64> for Switch {
 }
 
 impl Switch {
-    /// Of a law that has its level at the integer part of `argument`, continued from `side`; 0 for not known.
+    /// Switch of a law that has its level at the integer part of `argument`, continued from `side`; 0 for not known.
     pub fn of_level(argument: f64, side: f64) -> Self {
         let own = side_of_level(argument.floor());
         let known = if side == 0.0 { own } else { side };

@@ -6,9 +6,9 @@ use crate::kinematics::{CoordinateId, Kinematics};
 /// Measured quantity of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
-    /// Its value [m, rad].
+    /// Value of the coordinate [m, rad].
     Value,
-    /// Its rate [m/s, rad/s].
+    /// Rate of the coordinate [m/s, rad/s].
     Rate,
 }
 
@@ -26,7 +26,7 @@ impl Coordinate {
         Self::scaled(coordinate, of, 1.0)
     }
 
-    /// The same times a factor, such as from the scaling of modal coordinates to the units of their matrices.
+    /// Value or rate times a factor, such as from the scaling of modal coordinates to the units of their matrices.
     pub fn scaled(coordinate: CoordinateId, of: Of, factor: f64) -> Self {
         Self { own: [coordinate], of, factor }
     }

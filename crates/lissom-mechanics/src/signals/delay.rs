@@ -21,7 +21,7 @@ use crate::round_off;
 /// A part of the past of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
-    /// Its ends [s].
+    /// Ends of the piece [s].
     pub ends: [f64; 2],
     /// Values at the ends and at one and two thirds between them.
     pub values: [f64; 4],

@@ -47,7 +47,7 @@ pub struct Event {
 /// An event that happened.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Occurrence {
-    /// Its index in the order of the system's events.
+    /// Index of the event in the order of the system's events.
     pub event: usize,
     /// When [s].
     pub time: f64,
@@ -79,7 +79,7 @@ impl Graph {
         }
     }
 
-    /// The same for the events that `are_wanted` alone, with their indices.
+    /// Passes the values of the events that `are_wanted` alone, with their indices.
     pub fn event_values_of(&self, at: &Kinematics, are_wanted: &[bool], mut visit: impl FnMut(usize, f64)) {
         let wanted = || self.events.iter().enumerate().zip(are_wanted).filter(|(_, is_wanted)| **is_wanted);
         if wanted().next().is_none() {

@@ -4,7 +4,7 @@ use crate::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
 use crate::number::Written;
 use crate::signals::SignalError;
 
-/// Its entry of the catalogue.
+/// Catalogue entry of a signal that is not finite.
 pub const ENTRY: Entry = Entry {
     code: "signal-not-finite",
     variant: "SignalError",

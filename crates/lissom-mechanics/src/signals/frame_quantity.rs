@@ -69,7 +69,7 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// Its components, of a frame seen by an observer, in the observer's axes or in those of a third frame.
+    /// Components of the quantity, of a frame seen by an observer, in the observer's axes or in those of a third frame.
     pub fn values<T: Number>(
         &self,
         own: &MovingFrame<T>,
@@ -149,7 +149,7 @@ impl FrameQuantity {
         Self { formula, nodes, offset: own.offset, observer, axes }
     }
 
-    /// Its components, where node number `k` of [`nodes`](Measurement::nodes) moves as `node(k)`.
+    /// Components of the quantity, where node number `k` of [`nodes`](Measurement::nodes) moves as `node(k)`.
     fn evaluate<T: Number>(&self, node: impl Fn(usize) -> MovingFrame<T>) -> [T; MAX_COMPONENTS] {
         let mut next = 0;
         let mut carried = |frame: Option<Motion>| {

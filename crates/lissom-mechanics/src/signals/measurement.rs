@@ -33,7 +33,7 @@ impl Gradient {
         [value, rate]
     }
 
-    /// The same plus `factor` times another gradient.
+    /// This gradient plus `factor` times another one.
     #[must_use]
     pub fn plus(mut self, factor: f64, other: &Self) -> Self {
         for (own, other) in [
@@ -64,7 +64,7 @@ pub trait Measurement: Send + Sync {
         1
     }
 
-    /// Its components [SI]; those beyond its number are zero.
+    /// Components of the measurement [SI]; those beyond its number are zero.
     fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS];
 
     /// One of its components [SI]. Default: all of them are computed.
@@ -86,12 +86,12 @@ pub struct Component {
 }
 
 impl Component {
-    /// Its value [SI].
+    /// Value of the component [SI].
     pub fn value(&self, at: &Kinematics) -> f64 {
         self.of.value(self.component, at)
     }
 
-    /// Its derivatives.
+    /// Derivatives of the component.
     pub fn gradient(&self, at: &Kinematics) -> Gradient {
         self.of.gradient(self.component, at)
     }

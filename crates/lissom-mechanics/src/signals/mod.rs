@@ -111,11 +111,11 @@ pub struct Sampling {
 pub struct Signal {
     /// Subject of messages: the signal, or the entry of which this is an expression.
     pub subject: Subject,
-    /// Its expression, for messages.
+    /// Expression of the signal, for messages.
     pub text: String,
-    /// Its function.
+    /// Function of the signal.
     pub function: Arc<dyn SignalFunction>,
-    /// Its arguments.
+    /// Arguments of the function.
     pub arguments: Vec<Argument>,
     /// For a sampled signal.
     pub sampling: Option<Sampling>,
@@ -139,7 +139,7 @@ impl Signal {
 pub struct SignalError {
     /// The signal with its expression.
     pub signal: Subject,
-    /// Its value.
+    /// Value of the signal.
     pub value: f64,
     /// Time [s].
     pub time: f64,
@@ -206,7 +206,7 @@ impl Graph {
         self.evaluate_with(at, (all, |signal| self.sides(signal, at)), with)
     }
 
-    /// The same of the signals on which events depend, each switch on the side of its present value; others are zero.
+    /// Calls `with` with the values of the signals on which events depend, each switch on the side of its present value; others are zero.
     pub(crate) fn evaluate_events<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
         self.evaluate_with(at, (self.of_events.iter().copied(), |_| &[]), with)
     }
@@ -329,7 +329,7 @@ impl Graph {
         });
     }
 
-    /// The same, with respect to its held values as well.
+    /// Passes the derivatives of a signal with respect to its held values as well.
     pub fn differentiate_by_all(
         &self,
         root: SignalId,

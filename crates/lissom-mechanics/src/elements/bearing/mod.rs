@@ -34,7 +34,7 @@ use crate::registry::ParameterError;
 struct ShaftMotion {
     /// Displacements along the three axes [m], and rotations about the second and the third one.
     q: Vector5<f64>,
-    /// Its rate.
+    /// Rate of q.
     rate: Vector5<f64>,
     /// Speed of rotation [rad/s].
     speed: f64,
