@@ -90,11 +90,11 @@ const RUST: [Delimiters; 8] = [
     verbatim("'\\", "'"),
 ];
 
-/// Those of JavaScript.
+/// Comments and strings of JavaScript.
 const SCRIPT: [Delimiters; 5] =
     [verbatim("//", "\n"), verbatim("/*", "*/"), quoted("`", true), quoted("\"", false), quoted("'", false)];
 
-/// Those of Python and TOML.
+/// Comments and strings of Python and TOML.
 const PYTHON: [Delimiters; 5] = [
     verbatim("#", "\n"),
     verbatim("\"\"\"", "\"\"\""),
@@ -244,6 +244,52 @@ fn worst_words_are_not_used() {
         }
     }
     assert!(found.is_empty(), "words to replace:\n{}", found.join("\n"));
+}
+
+/// Words at the start of a comment that refer to something outside of it.
+const FRAGMENTS: [&str; 4] = ["The same", "Those", "Of", "Its"];
+
+/// Lines at which a doc comment of a source begins with such words.
+fn fragments(source: &str) -> Vec<usize> {
+    let (mut found, mut is_continued) = (Vec::new(), false);
+    for (number, line) in source.lines().enumerate() {
+        let line = line.trim_start();
+        let comment = ["///", "//!"].iter().find_map(|start| line.strip_prefix(start));
+        let begins = |words: &str| {
+            let rest = comment.and_then(|comment| comment.trim_start().strip_prefix(words));
+            rest.is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+        };
+        if !is_continued && FRAGMENTS.into_iter().any(begins) {
+            found.push(number + 1);
+        }
+        is_continued = comment.is_some();
+    }
+    found
+}
+
+#[test]
+fn doc_comments_are_complete_by_themselves() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut files = Vec::new();
+    for package in fs::read_dir(root.join("crates")).expect("readable") {
+        files_with_prose(&package.expect("readable").path().join("src"), &mut files);
+    }
+    files_with_prose(&root.join("xtask/src"), &mut files);
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "rs"));
+    assert!(files.len() > 500, "the search must see all crates");
+    let mut found = Vec::new();
+    for file in files {
+        let name = file.strip_prefix(&root).expect("below the root").to_string_lossy().replace('\\', "/");
+        let lines = fragments(&fs::read_to_string(&file).expect("readable"));
+        found.extend(lines.into_iter().map(|line| format!("{name}:{line}")));
+    }
+    assert!(found.is_empty(), "comments to begin with the noun or verb of their item:\n{}", found.join("\n"));
+}
+
+#[test]
+fn fragments_are_found_at_the_start_of_comments() {
+    let source = "//! The same, but faster.\n\n/// Its name.\nfn a() {}\n    /// Sum.\n    /// Of all.\n/// Often.\n\n/// Of";
+    assert_eq!(fragments(source), [1, 3, 9]);
 }
 
 /// Lines of the offences in a text of a file.
