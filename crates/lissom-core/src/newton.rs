@@ -1,6 +1,6 @@
-//! The only Newton loop. It has no notion of time or mechanics: it corrects, monitors the contraction, keeps the
-//! tangent while that converges, and renews it otherwise. It stops at a scaled tolerance, or when corrections stall
-//! at round-off.
+//! The Newton loop of steps and paths. It has no notion of time or mechanics: it corrects, monitors the contraction,
+//! keeps the tangent while that converges, and renews it otherwise. It stops at a scaled tolerance, or when
+//! corrections stall at round-off.
 
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};

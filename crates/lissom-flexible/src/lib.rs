@@ -1,4 +1,4 @@
-//! Flexible elements in SI: beams, shells, solids and parts reduced to their modes. Independent of system, scheme and time step.
+//! Flexible elements in SI: beams, shells, solids and parts reduced to their modes. Independent of system and scheme.
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 

@@ -1,5 +1,5 @@
-//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, wheels and signals. Independent of system,
-//! scheme and time step.
+//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, wheels and signals. Independent of system
+//! and scheme; it receives a step only as durations between stages (`kinematics::step_stages`).
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 
