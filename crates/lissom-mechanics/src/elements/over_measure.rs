@@ -75,7 +75,7 @@ pub(crate) trait Measure: Clone + Debug + Send + Sync + 'static {
         None
     }
 
-    /// Its two nodes, the vector between its ends, and the measure at which they meet. Default: it has none.
+    /// Nodes of both ends, the vector between the ends, and the measure at which they meet. Default: it has no ends.
     fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3, f64)> {
         None
     }

@@ -2,7 +2,7 @@
 
 use lissom_core::consistent::mobility::mobility;
 use lissom_core::errors::Warning;
-use lissom_core::kinematics::Subject;
+use lissom_core::kinematics::{Kinematics, Subject};
 use lissom_core::system::{State, System};
 use lissom_model::document::{AnalysisKind, Component, Document};
 use lissom_motion::Vector3;
@@ -11,23 +11,10 @@ use lissom_motion::Vector3;
 const MAX_UNKNOWNS: usize = 400;
 /// Sine of the angle between two axes below which they are parallel.
 const PARALLEL: f64 = 1e-3;
+/// Fraction of the time at which equations are evaluated again.
+const LATER: f64 = 0.61;
 /// Kinds of joints whose axes are compared.
 const TURNING: [&str; 3] = ["revolute", "parallel_axes", "cylindrical"];
-
-/// Kinds of joints that move nothing by themselves.
-const PASSIVE: [&str; 11] = [
-    "clamp",
-    "rigid_link",
-    "revolute",
-    "prismatic",
-    "cylindrical",
-    "spherical",
-    "universal",
-    "planar",
-    "parallel_axes",
-    "distance",
-    "point_in_plane",
-];
 
 /// A warning if nothing sets the parts in motion, or if joints lock all parts of a model without drives because one axis differs from
 /// those of the others.
@@ -41,7 +28,7 @@ pub(super) fn immobile(document: &Document, system: &System, state: &State) -> O
     if !is_motion || !system.drives().is_empty() || !system.latches().is_empty() {
         return None;
     }
-    if has_no_cause(document, state) {
+    if has_no_cause(document, system, state) {
         let message =
             "nothing sets the parts in motion: there is no gravity, load, drive, spring or velocity";
         let help = "add `gravity = [0, 0, -9.81]`, a load, a drive, or a `velocity` of a part";
@@ -60,13 +47,15 @@ fn warning(message: String, help: &str) -> Warning {
 }
 
 /// Whether all parts are at rest, and nothing acts on them.
-fn has_no_cause(document: &Document, state: &State) -> bool {
+fn has_no_cause(document: &Document, system: &System, state: &State) -> bool {
     let at = &state.kinematics;
+    // An equation may depend on time, and not at the first instant.
+    let later = Kinematics { time: at.time + LATER * (document.analysis.end - at.time), ..at.clone() };
     let rests = at.nodes.iter().all(|node| node.twist.iter().all(|value| *value == 0.0))
         && at.coordinates.iter().all(|coordinate| coordinate.rate == 0.0);
     rests
         && document.gravity.norm() == 0.0
-        && document.joints.iter().all(|joint| PASSIVE.contains(&joint.kind.value.as_str()))
+        && ![at, &later].iter().any(|at| system.has_driven_constraint(at))
         && document.loads.is_empty()
         && document.local_loads.is_empty()
         && document.springs.is_empty()

@@ -57,9 +57,24 @@ fn slips_are_named_with_the_unit_that_is_read() {
         let found = warnings(&PENDULUM.replacen(from, to, 1));
         assert!(found.contains(words), "{words}: {found}");
     }
-    let session = session(&PENDULUM.replace("gravity = [0, 0, -9.81]", ""), &[]);
-    let found = session.warnings().map(ToString::to_string).collect::<Vec<_>>().join("\n");
-    assert!(found.contains("nothing sets the parts in motion"), "{found}");
+}
+
+/// Whatever the kinds of its joints; an equation may begin to move them later.
+#[test]
+fn a_model_without_a_cause_of_motion_is_named() {
+    let law =
+        |equation: &str| format!("[joints.law]\nkind = \"equation\"\nequation = \"{equation}\"\n[analysis]");
+    let weightless = PENDULUM.replace("gravity = [0, 0, -9.81]", "");
+    for (from, to, is_named) in [
+        ("axis", "axis", true),
+        ("kind = \"revolute\"\nbase = \"arm\"", "kind = \"screw\"\nlead = 0.01\nbase = \"arm\"", true),
+        ("[analysis]", &law("hinge.angle + elbow.angle"), true),
+        ("[analysis]", &law("hinge.angle - 1 + cos(t)"), false),
+    ] {
+        let session = session(&weightless.replace(from, to), &[]);
+        let found = session.warnings().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+        assert_eq!(found.contains("nothing sets the parts in motion"), is_named, "{to}: {found}");
+    }
 }
 
 #[test]
