@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{Attached, SPRINGS};
-use lissom_core::joints;
-use lissom_core::kinematics::Freedoms;
-use lissom_core::registry::{Parameters, TimeFunction, Value};
-use lissom_core::system::{Builder, Placement};
+use lissom_mechanics::elements::{Attached, SPRINGS};
+use lissom_mechanics::joints;
+use lissom_mechanics::kinematics::Freedoms;
+use lissom_mechanics::registry::{Parameters, TimeFunction, Value};
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, Placement};
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::Random;

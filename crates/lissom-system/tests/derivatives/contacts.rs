@@ -2,19 +2,19 @@
 
 use std::sync::Arc;
 
-use lissom_core::compliance::Compliance;
-use lissom_core::contact::elastic::resistance::ContactResistance;
-use lissom_core::contact::elastic::{Contact, ContactFriction, Dissipation};
-use lissom_core::contact::geometry::curves::Segment;
-use lissom_core::contact::geometry::gap::Pair;
-use lissom_core::contact::geometry::pairs::{CurveOnSurface, EllipsoidsOnSurface, PointOnSurface};
-use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
-use lissom_core::contact::law::Coulomb;
-use lissom_core::contact::point::MovingSurface;
-use lissom_core::elements::Contribution;
-use lissom_core::kinematics::{CarriedFrame, CoordinateId, Freedoms, GROUND, Switch};
-use lissom_core::system::{Builder, State, System};
+use lissom_contact::elastic::resistance::ContactResistance;
+use lissom_contact::elastic::{Contact, ContactFriction, Dissipation};
+use lissom_contact::geometry::curves::Segment;
+use lissom_contact::geometry::gap::Pair;
+use lissom_contact::geometry::pairs::{CurveOnSurface, EllipsoidsOnSurface, PointOnSurface};
+use lissom_contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_contact::law::Coulomb;
+use lissom_contact::point::MovingSurface;
+use lissom_mechanics::compliance::Compliance;
+use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, Freedoms, GROUND, Switch};
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, State, System};
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random, difference};

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{LOADS, SPRINGS};
-use lissom_core::joints;
-use lissom_core::registry::{Parameter, ParameterType, Parameters, TimeFunction, Value};
-use lissom_core::system::{Builder, Placement};
+use lissom_mechanics::elements::{LOADS, SPRINGS};
+use lissom_mechanics::joints;
+use lissom_mechanics::registry::{Parameter, ParameterType, Parameters, TimeFunction, Value};
 use lissom_motion::Vector3;
+use lissom_system::{Builder, Placement};
 
 use crate::derivatives::configuration::{Random, sample_parameters};
 use crate::derivatives::ports::{attached, joint_attachment};
 use crate::derivatives::two_bodies;
-use lissom_core::kinematics::NodeId;
+use lissom_mechanics::kinematics::NodeId;
 
 /// Smooth except at given instants.
 #[derive(Debug)]

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::Contribution;
-use lissom_core::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
-use lissom_core::kinematics::{CarriedFrame, Freedoms, Subject};
-use lissom_core::registry::Constant;
-use lissom_core::signals::SignalFunction;
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
+use lissom_mechanics::kinematics::{CarriedFrame, Freedoms, Subject};
+use lissom_mechanics::registry::Constant;
+use lissom_mechanics::signals::SignalFunction;
+use lissom_system::Builder;
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random};

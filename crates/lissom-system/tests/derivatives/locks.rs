@@ -1,9 +1,9 @@
 //! Every way to lock some of six relative degrees of freedom: derivatives, and the freedom that is left.
 
-use lissom_core::joints;
-use lissom_core::registry::{Parameters, Value};
-use lissom_core::system::{Placement, State, System};
+use lissom_mechanics::joints;
+use lissom_mechanics::registry::{Parameters, Value};
 use lissom_motion::Vector6;
+use lissom_system::{Placement, State, System};
 
 use crate::derivatives::configuration::{Configuration, Random};
 use crate::derivatives::{check, two_bodies};

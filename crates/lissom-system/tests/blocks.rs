@@ -1,11 +1,11 @@
 //! Elements eight at a time against one at a time, on every kind of vector that this processor has.
 
-use lissom_core::elements::inertia::{Gravity, Inertia};
-use lissom_core::elements::{Deformable, Element, Tangents};
-use lissom_core::flexible::beam::{Beam, SectionLaw};
-use lissom_core::flexible::shell::Shell;
-use lissom_core::flexible::shell::section::{Ply, ShellLaw};
-use lissom_core::kinematics::{Kinematics, NodeId, NodeMotion, Stressed};
+use lissom_flexible::beam::{Beam, SectionLaw};
+use lissom_flexible::shell::Shell;
+use lissom_flexible::shell::section::{Ply, ShellLaw};
+use lissom_mechanics::elements::inertia::{Gravity, Inertia};
+use lissom_mechanics::elements::{Deformable, Element, Tangents};
+use lissom_mechanics::kinematics::{Kinematics, NodeId, NodeMotion, Stressed};
 use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
 
 /// Every level of vector instructions this processor has, and none.

@@ -1,14 +1,14 @@
 //! Superelements: derivatives, invariance under rigid motion, conservation, and what matrices are rejected.
 
-use lissom_core::elements::inertia::Gravity;
-use lissom_core::elements::{Deformable, LinearLimit};
-use lissom_core::flexible::superelement::{
+use lissom_flexible::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Shortening, Superelement,
     SuperelementDescription, TurningMatrices, superelement,
 };
-use lissom_core::kinematics::{Freedoms, NodeId};
-use lissom_core::system::{Builder, State, System};
+use lissom_mechanics::elements::inertia::Gravity;
+use lissom_mechanics::elements::{Deformable, LinearLimit};
+use lissom_mechanics::kinematics::{Freedoms, NodeId};
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, State, System};
 use nalgebra::{DMatrix, DVector};
 
 use crate::derivatives::check;

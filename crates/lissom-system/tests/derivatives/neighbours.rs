@@ -1,12 +1,12 @@
 //! Elements that represent a weighted sum of neighbouring elements: their forces are that sum, and there are none where forces are not
 //! proportional to what differs.
 
-use lissom_core::elements::Element;
-use lissom_core::elements::inertia::{Gravity, Inertia};
-use lissom_core::flexible::beam::{Beam, SectionLaw};
-use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
-use lissom_core::system::Builder;
+use lissom_flexible::beam::{Beam, SectionLaw};
+use lissom_mechanics::elements::Element;
+use lissom_mechanics::elements::inertia::{Gravity, Inertia};
+use lissom_mechanics::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+use lissom_system::Builder;
 
 use crate::derivatives::configuration::{Configuration, Random};
 

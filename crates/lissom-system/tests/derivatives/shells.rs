@@ -3,16 +3,16 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::inertia::Gravity;
-use lissom_core::elements::mass_distribution::MassDistribution;
-use lissom_core::elements::{Element, OwnInertia, Tangents};
-use lissom_core::flexible::pressure::{FacePressure, Pressure, face_points};
-use lissom_core::flexible::shell::Shell;
-use lissom_core::flexible::shell::damping::ShellDamping;
-use lissom_core::flexible::shell::section::{Ply, ShellLaw};
-use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
-use lissom_core::system::{Builder, State, System};
+use lissom_flexible::pressure::{FacePressure, Pressure, face_points};
+use lissom_flexible::shell::Shell;
+use lissom_flexible::shell::damping::ShellDamping;
+use lissom_flexible::shell::section::{Ply, ShellLaw};
+use lissom_mechanics::elements::inertia::Gravity;
+use lissom_mechanics::elements::mass_distribution::MassDistribution;
+use lissom_mechanics::elements::{Element, OwnInertia, Tangents};
+use lissom_mechanics::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, State, System};
 use nalgebra::DMatrix;
 
 use super::check;

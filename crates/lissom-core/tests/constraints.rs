@@ -18,8 +18,7 @@ use lissom_core::system::{Builder, JointAttachment, Placement, State, System};
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 
 use super::configuration::{Configuration, Random, difference, sample_parameters};
-use super::ports::joint_attachment;
-use super::two_bodies;
+use super::ports::{joint_attachment, two_bodies};
 
 /// A scene with a constraint of this kind, and what it acts on.
 struct Scene {

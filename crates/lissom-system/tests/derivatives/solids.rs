@@ -3,16 +3,16 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{Deformable, Element, Tangents};
-use lissom_core::flexible::pressure::{FacePressure, Pressure, face_points};
-use lissom_core::flexible::solid::damping::SolidDamping;
-use lissom_core::flexible::solid::law::{SolidLaw, SolidModel};
-use lissom_core::flexible::solid::{Solid, SolidElement};
-use lissom_core::kinematics::{Freedoms, Kinematics, NodeId, Stressed};
-use lissom_core::system::{Builder, State, System};
+use lissom_flexible::pressure::{FacePressure, Pressure, face_points};
+use lissom_flexible::solid::damping::SolidDamping;
+use lissom_flexible::solid::law::{SolidLaw, SolidModel};
+use lissom_flexible::solid::{Solid, SolidElement};
+use lissom_mechanics::elements::{Deformable, Element, Tangents};
+use lissom_mechanics::kinematics::{Freedoms, Kinematics, NodeId, Stressed};
 use lissom_mesh::kinds::face::area_shares;
 use lissom_mesh::kinds::{SOLID_KINDS, SolidKind};
 use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_system::{Builder, State, System};
 use nalgebra::DMatrix;
 
 use super::check;

@@ -1,13 +1,13 @@
 //! Joints evaluated several at a time: the same forces and violations as one at a time.
 
-use lissom_core::joints::derivatives::LOCAL;
-use lissom_core::joints::evaluation_point::Point;
-use lissom_core::joints::starts::JointStarts;
-use lissom_core::joints::{self, Build};
-use lissom_core::kinematics::{Freedoms, LOCKED};
-use lissom_core::registry::ParameterError;
-use lissom_core::system::{Builder, Placement, State, System};
+use lissom_mechanics::joints::derivatives::LOCAL;
+use lissom_mechanics::joints::evaluation_point::Point;
+use lissom_mechanics::joints::starts::JointStarts;
+use lissom_mechanics::joints::{self, Build};
+use lissom_mechanics::kinematics::{Freedoms, LOCKED};
+use lissom_mechanics::registry::ParameterError;
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, Placement, State, System};
 
 use crate::derivatives::configuration::{Configuration, Random, sample_parameters};
 

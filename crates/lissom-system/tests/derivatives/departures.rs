@@ -1,8 +1,8 @@
 //! Derivatives by departures from going on: `H(t) = H exp(t V) exp ψ̂(t)`, differentiated along the motion itself.
 
-use lissom_core::joints::evaluation_point::Chart;
-use lissom_core::system::System;
+use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_motion::{Motion, Vector6, tangent};
+use lissom_system::System;
 
 use crate::derivatives::configuration::{Configuration, Unknown, difference, unknown};
 

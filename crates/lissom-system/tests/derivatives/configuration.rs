@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use lissom_core::joints::evaluation_point::{Augmentation, Increments, Point};
-use lissom_core::kinematics::{
+use lissom_mechanics::joints::evaluation_point::{Augmentation, Increments, Point};
+use lissom_mechanics::kinematics::{
     CoordinateId, DiscreteValueId, Kinematics, LOCKED, Layout, MotionChange, NodeId,
 };
-use lissom_core::registry::{
+use lissom_mechanics::registry::{
     Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
 };
-use lissom_core::relation::{Relation, RelationPoint};
-use lissom_core::system::{State, System};
+use lissom_mechanics::relation::{Relation, RelationPoint};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+use lissom_system::{State, System};
 use nalgebra::DMatrix;
 
 /// A small generator of numbers in -1 … 1 that is the same on every machine.

@@ -1,10 +1,10 @@
 //! Rigid contacts of all pairs of solids, in all modes: derivatives of constraints and friction.
 
-use lissom_core::contact::rigid::{Mode, RigidLaw};
-use lissom_core::joints::constraint::violation_rates;
-use lissom_core::kinematics::{CarriedFrame, Freedoms, Kinematics};
-use lissom_core::system::{Builder, State, System};
+use lissom_contact::rigid::{Mode, RigidLaw};
+use lissom_mechanics::joints::constraint::violation_rates;
+use lissom_mechanics::kinematics::{CarriedFrame, Freedoms, Kinematics};
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, State, System};
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::{Random, difference};
@@ -73,8 +73,8 @@ fn rates_of_rigid_contacts_are_those_along_the_motion() {
                 at.nodes[node].twist = random.screw();
                 at.nodes[node].acceleration = random.screw();
             }
-            at.nodes[lissom_core::kinematics::GROUND] =
-                state.kinematics.nodes[lissom_core::kinematics::GROUND];
+            at.nodes[lissom_mechanics::kinematics::GROUND] =
+                state.kinematics.nodes[lissom_mechanics::kinematics::GROUND];
             let contact = system.rigid_contacts().next().expect("there is one");
             let slope = difference(|time| vec![contact.touching(&moved(&at, time)).gap.value])[0];
             let rate = contact.touching(&at).rate();

@@ -1,16 +1,16 @@
 //! Contacts of balls with elements of shells: derivatives, energy and momentum, within an element, between elements, at edges and corners.
 
-use lissom_core::compliance::Compliance;
-use lissom_core::contact::elastic::ContactFriction;
-use lissom_core::contact::law::Coulomb;
-use lissom_core::contact::of_shells::{ShellContact, contact_patches};
-use lissom_core::elements::{Contribution, Element};
-use lissom_core::flexible::shell::section::{Ply, ShellLaw};
-use lissom_core::flexible::shell::surface::{ShellSection, SurfaceDescription, shell_surface};
-use lissom_core::kinematics::{Freedoms, GROUND, Kinematics};
-use lissom_core::system::{Builder, State, System};
+use lissom_contact::elastic::ContactFriction;
+use lissom_contact::law::Coulomb;
+use lissom_contact::of_shells::{ShellContact, contact_patches};
+use lissom_flexible::shell::section::{Ply, ShellLaw};
+use lissom_flexible::shell::surface::{ShellSection, SurfaceDescription, shell_surface};
+use lissom_mechanics::compliance::Compliance;
+use lissom_mechanics::elements::{Contribution, Element};
+use lissom_mechanics::kinematics::{Freedoms, GROUND, Kinematics};
 use lissom_mesh::{MeshShape, MeshedPart};
 use lissom_motion::{Motion, Vector3};
+use lissom_system::{Builder, State, System};
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random, difference};

@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{Attached, LOADS, SPRINGS};
-use lissom_core::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity, SignalId, Subject};
-use lissom_core::registry::{Constant, ParameterType, Value};
-use lissom_core::signals::coordinate::{self, Coordinate};
-use lissom_core::signals::frame_quantity::{FrameQuantity, Of};
-use lissom_core::signals::measurement::Component;
-use lissom_core::signals::{Argument, Sampling, Signal, SignalFunction};
-use lissom_core::system::Builder;
+use lissom_mechanics::elements::{Attached, LOADS, SPRINGS};
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity, SignalId, Subject};
+use lissom_mechanics::registry::{Constant, ParameterType, Value};
+use lissom_mechanics::signals::coordinate::{self, Coordinate};
+use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of};
+use lissom_mechanics::signals::measurement::Component;
+use lissom_mechanics::signals::{Argument, Sampling, Signal, SignalFunction};
 use lissom_motion::{Motion, Rotation};
+use lissom_system::Builder;
 
 use super::configuration::{Configuration, Random, sample_parameters};
 use super::ports::{attached, coordinate};

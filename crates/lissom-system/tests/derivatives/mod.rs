@@ -3,7 +3,6 @@
 mod beam_contacts;
 mod breakpoints;
 mod configuration;
-mod constraints;
 mod contacts;
 mod departures;
 mod energies;
@@ -22,20 +21,21 @@ mod solids;
 mod superelement;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
-use lissom_core::elements::{LOADS, SPRINGS};
-use lissom_core::flexible::beam::{Beam, SectionLaw};
-use lissom_core::joints::constraint::violation_rates;
-use lissom_core::joints::derivatives::IncrementTangent;
-use lissom_core::joints::evaluation_point::Chart;
-use lissom_core::joints::starts::JointStarts;
-use lissom_core::joints::{self, Build};
-use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
-use lissom_core::ports::PortType;
-use lissom_core::registry::Value;
-use lissom_core::system::{
+use lissom_flexible::beam::{Beam, SectionLaw};
+use lissom_mechanics::elements::{LOADS, SPRINGS};
+use lissom_mechanics::joints::constraint::violation_rates;
+use lissom_mechanics::joints::derivatives::IncrementTangent;
+use lissom_mechanics::joints::evaluation_point::Chart;
+use lissom_mechanics::joints::starts::JointStarts;
+use lissom_mechanics::joints::{self, Build};
+use lissom_mechanics::kinematics::{Freedoms, Kinematics};
+use lissom_mechanics::ports::PortType;
+use lissom_mechanics::registry::Value;
+use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+use lissom_system::{
     Blend, Builder, Linearization, Placement, Scratch, State, Sum, System, TangentAssembler,
 };
-use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+use ports::two_bodies;
 
 /// Compares all blocks of the linearisation with differences of the residual.
 fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Random) {
@@ -141,12 +141,6 @@ fn check_sum(
     }
 }
 
-fn two_bodies(random: &mut Random) -> (Builder, [NodeId; 2]) {
-    let mut builder = Builder::new();
-    let nodes = ["base", "tip"].map(|name| builder.add_node(name, random.motion(), Freedoms::Full));
-    (builder, nodes)
-}
-
 #[test]
 fn springs_and_loads() {
     for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
@@ -234,7 +228,7 @@ fn all_joints() {
                 axis: Some(axis),
                 second_axis: Some(random.vector()),
             };
-            let needs_rotation = |port: &lissom_core::ports::PortDeclaration| {
+            let needs_rotation = |port: &lissom_mechanics::ports::PortDeclaration| {
                 matches!(
                     port.holds,
                     PortType::Coordinate(_) | PortType::OnlyCoordinate(_) | PortType::NamedCoordinates

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use lissom_core::compliance::Compliance;
-use lissom_core::contact::nearest::{CarriedCurve, CarriedPoint, NearestContact};
-use lissom_core::contact::reading::ContactElement;
-use lissom_core::elements::{Contribution, Element};
-use lissom_core::joints::centerline::Centerline;
-use lissom_core::kinematics::{Freedoms, GROUND};
-use lissom_core::system::{Builder, State, System};
+use lissom_contact::nearest::{CarriedCurve, CarriedPoint, NearestContact};
+use lissom_contact::reading::ContactElement;
+use lissom_mechanics::compliance::Compliance;
+use lissom_mechanics::elements::{Contribution, Element};
+use lissom_mechanics::joints::centerline::Centerline;
+use lissom_mechanics::kinematics::{Freedoms, GROUND};
 use lissom_motion::Vector3;
+use lissom_system::{Builder, State, System};
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random, difference};

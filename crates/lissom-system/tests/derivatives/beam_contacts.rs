@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use lissom_core::compliance::Compliance;
-use lissom_core::contact::elastic::ContactFriction;
-use lissom_core::contact::geometry::gap::Pair;
-use lissom_core::contact::geometry::pairs::PointOnSurface;
-use lissom_core::contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
-use lissom_core::contact::law::Coulomb;
-use lissom_core::contact::of_beams::BeamContact;
-use lissom_core::elements::{Contribution, Element, Spring};
-use lissom_core::flexible::beam::SectionLaw;
-use lissom_core::flexible::beam::line::{BeamLineDescription, beam_line};
-use lissom_core::flexible::beam::section::Section;
-use lissom_core::kinematics::{CarriedFrame, Freedoms, GROUND, Kinematics};
-use lissom_core::system::{Builder, State, System};
+use lissom_contact::elastic::ContactFriction;
+use lissom_contact::geometry::gap::Pair;
+use lissom_contact::geometry::pairs::PointOnSurface;
+use lissom_contact::geometry::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_contact::law::Coulomb;
+use lissom_contact::of_beams::BeamContact;
+use lissom_flexible::beam::SectionLaw;
+use lissom_flexible::beam::line::{BeamLineDescription, beam_line};
+use lissom_flexible::beam::section::Section;
+use lissom_mechanics::compliance::Compliance;
+use lissom_mechanics::elements::{Contribution, Element, Spring};
+use lissom_mechanics::kinematics::{CarriedFrame, Freedoms, GROUND, Kinematics};
 use lissom_motion::{Matrix6, Motion, Vector3, screw};
+use lissom_system::{Builder, State, System};
 
 use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random, difference};

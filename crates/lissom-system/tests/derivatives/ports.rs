@@ -1,13 +1,13 @@
 //! Attachments to every form of port, for kinds of all tables.
 
-use lissom_core::elements::{Attached, ElementKind};
-use lissom_core::joints::slider::CarriedPoint;
-use lissom_core::joints::{self, JointKind};
-use lissom_core::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
-use lissom_core::ports::PortType;
-use lissom_core::registry::{Parameters, Value};
-use lissom_core::system::{BeamChain, Builder, JointAttachment, Placement};
+use lissom_mechanics::elements::{Attached, ElementKind};
+use lissom_mechanics::joints::slider::CarriedPoint;
+use lissom_mechanics::joints::{self, JointKind};
+use lissom_mechanics::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
+use lissom_mechanics::ports::PortType;
+use lissom_mechanics::registry::{Parameters, Value};
 use lissom_motion::Vector3;
+use lissom_system::{BeamChain, Builder, JointAttachment, Placement};
 
 use super::configuration::Random;
 
@@ -36,6 +36,13 @@ pub(crate) fn attached(
         }
     }
     attached
+}
+
+/// Two bodies at random positions.
+pub(crate) fn two_bodies(random: &mut Random) -> (Builder, [NodeId; 2]) {
+    let mut builder = Builder::new();
+    let nodes = ["base", "tip"].map(|name| builder.add_node(name, random.motion(), Freedoms::Full));
+    (builder, nodes)
 }
 
 /// An attachment of a joint: two bodies as placed, coordinates of a joint between them, or a line along which the second slides.

@@ -1,13 +1,13 @@
 //! Every registered spring: its forces at rest are the gradient of its energy, and the motion that it reports belongs to them. What
 //! springs and loads report has exact gradients.
 
-use lissom_core::elements::{ElementKind, LOADS, SPRINGS};
-use lissom_core::kinematics::{Kinematics, LOCKED, Quantity};
-use lissom_core::registry::{ParameterType, Value};
-use lissom_core::system::element_quantity::Of;
-use lissom_core::system::{ElementId, State, System};
+use lissom_mechanics::elements::{ElementKind, LOADS, SPRINGS};
 use lissom_mechanics::evaluation::wrench::WrenchAxes;
+use lissom_mechanics::kinematics::{Kinematics, LOCKED, Quantity};
+use lissom_mechanics::registry::{ParameterType, Value};
 use lissom_motion::Motion;
+use lissom_system::element_quantity::Of;
+use lissom_system::{ElementId, State, System};
 use nalgebra::DMatrix;
 
 use crate::derivatives::configuration::{
