@@ -11,7 +11,7 @@ use crate::path::PathError;
 use crate::signals::failure;
 use crate::simulation::InputError;
 use crate::simulation::SnapshotError;
-use crate::studies::joint_space::JointSpaceError;
+use crate::simulation::joint_space::JointSpaceError;
 
 /// Their entries: warnings, then failures.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {

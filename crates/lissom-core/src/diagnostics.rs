@@ -107,7 +107,7 @@ pub(crate) use diagnostics;
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::studies::joint_space::JointSpaceError;
+    use crate::simulation::joint_space::JointSpaceError;
     use num_complex::Complex64;
 
     use crate::assembly::{AssemblyError, Gap, Gaps};

@@ -35,7 +35,6 @@ pub mod saddle_point;
 pub mod scaling;
 pub mod settings;
 pub mod simulation;
-pub mod studies;
 
 pub use energy_balance::EnergyBalance;
 

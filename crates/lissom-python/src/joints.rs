@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use lissom::core::studies::joint_space::{JointMotion, JointSpaceError};
+use lissom::core::simulation::joint_space::{JointMotion, JointSpaceError};
 use lissom::{JointCoordinateError, JointCoordinates, JointDynamics, Prepared, Session};
 use numpy::{AllowTypeChange, PyArrayLikeDyn};
 use pyo3::exceptions::PyValueError;

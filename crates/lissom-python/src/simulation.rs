@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lissom::core::simulation::SnapshotError;
-use lissom::core::studies::joint_space::JointMotion;
+use lissom::core::simulation::joint_space::JointMotion;
 use lissom::{Document, Prepared, Session, SessionSnapshot, with_code};
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;

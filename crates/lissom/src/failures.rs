@@ -493,7 +493,6 @@ catalogued! {
     } wraps {
         Model { 0 => report } => report.diagnostic(),
         Initial { 0 => error } => error.diagnostic(),
-        Step { 0 => error } => error.diagnostic(),
         Run { 0 => error } => error.diagnostic(),
     }
 

@@ -1,11 +1,9 @@
 //! The claims of [Epple 2008] about the method, each with the command that measures it, the figure, and whether they agree.
 
-use lissom::Override;
-use lissom::analyses::study::conditioning::{self, Table as Conditions};
 use lissom::analyses::study::convergence;
-use lissom::analyses::study::factorization::{self, scaling_name};
-use lissom::core::studies::factorization::{Case, Factored};
 
+use super::conditioning::{Conditions, MASS, conditions, with_steps, with_values};
+use super::factorization::{Case, Factored, augmented, study};
 use super::fragment::{Fragment, overrides, study_command, texts};
 use super::numbers::{bound, one, two};
 use super::published::{MASSES, STEPS};
@@ -13,8 +11,11 @@ use super::{BookError, Studio};
 
 const PENDULUM: &str = "pendulum";
 const CRANK: &str = "tip-crank";
-const MASS: &str = "point_masses.bob.mass";
+/// A solver that does not pivot, like that of the source.
+const SOLVER: &str = "skyline";
 const STIFFNESS: &str = "springs.spring.stiffness";
+/// Command of claims without a table of their own.
+const ALL: &str = "cargo xtask claims";
 
 /// Columns of condition numbers.
 const NONE: usize = 0;
@@ -80,10 +81,8 @@ pub(super) fn claims(studio: &Studio) -> Result<Fragment, BookError> {
 }
 
 /// Condition numbers of a column, in the order of the rows.
-fn column(table: &Conditions, scaling: usize) -> Vec<f64> {
-    let of =
-        |row: &conditioning::Row| row.outcome.as_ref().map_or(f64::NAN, |found| found.conditions[scaling]);
-    table.rows.iter().map(of).collect()
+fn column(table: &[Conditions], scaling: usize) -> Vec<f64> {
+    table.iter().map(|row| row[scaling]).collect()
 }
 
 /// Smallest and largest value; not a number if a value is none.
@@ -114,36 +113,14 @@ fn exponent(values: &[f64], at: &[f64]) -> f64 {
     (values[to] / values[from]).ln() / (at[to] / at[from]).ln()
 }
 
-fn condition(
-    studio: &Studio,
-    example: &str,
-    steps: &[&str],
-    vary: Option<(&str, &[&str])>,
-    set: &[(&str, &str)],
-) -> Result<(Conditions, String), BookError> {
-    let request = conditioning::Request {
-        steps: texts(steps),
-        vary: vary.map(|(path, values)| (path.to_owned(), texts(values))),
-    };
-    let set = overrides(set);
-    let steps = steps.join(",");
-    let varied = vary.map(|(path, values)| format!("{path}={}", values.join(",")));
-    let mut options = vec![("steps", steps.as_str())];
-    options.extend(varied.as_deref().map(|varied| ("vary", varied)));
-    let command = study_command("conditioning", example, &options, &set);
-    Ok((
-        conditioning::study(&studio.example(example)?.with_overrides(&set), &request, &studio.watch())?,
-        command,
-    ))
-}
-
 fn numbers(texts: &[&str]) -> Vec<f64> {
     texts.iter().map(|text| text.parse().unwrap_or(f64::NAN)).collect()
 }
 
 fn over_step(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
     let steps = STEPS.map(|(step, _)| step);
-    let (table, command) = condition(studio, PENDULUM, &steps, None, &[])?;
+    let table = conditions(studio, PENDULUM, &with_steps(&steps, &[]))?;
+    let command = "cargo xtask figures conditioning-steps".to_owned();
     let none = exponent(&column(&table, NONE), &numbers(&steps));
     let printed = numbers(&STEPS.map(|(_, values)| values[NONE]));
     let ratios: Vec<f64> =
@@ -171,7 +148,8 @@ fn over_step(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> 
 
 fn over_mass_and_stiffness(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
     let masses = MASSES.map(|(mass, _)| mass);
-    let (table, command) = condition(studio, PENDULUM, &["1e-2"], Some((MASS, &masses)), &[])?;
+    let table = conditions(studio, PENDULUM, &with_values(MASS, &masses))?;
+    let command = "cargo xtask figures conditioning-mass".to_owned();
     let none = exponent(&column(&table, NONE), &numbers(&masses));
     // From 1 kg on: lighter masses are below s = 1.
     let unit = exponent(&column(&table, UNIT)[3..], &numbers(&masses)[3..]);
@@ -193,7 +171,7 @@ fn over_mass_and_stiffness(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(
         command,
     });
     let stiffnesses = ["1e-1", "1e0", "1e1", "1e2", "1e3", "1e4"];
-    let (table, command) = condition(studio, PENDULUM, &["1e-2"], Some((STIFFNESS, &stiffnesses)), &[])?;
+    let table = conditions(studio, PENDULUM, &with_values(STIFFNESS, &stiffnesses))?;
     let physical = spread(&column(&table, PHYSICAL));
     claims.push(Claim {
         source: "similar results if the stiffness is varied",
@@ -201,7 +179,7 @@ fn over_mass_and_stiffness(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(
         agrees: physical < FLAT,
         expected: true,
         depends_on: None,
-        command,
+        command: ALL.to_owned(),
     });
     let label = |table: &[super::published::Row], name: &str| {
         table.iter().find(|(label, _)| *label == name).map_or("", |(_, values)| values[NONE])
@@ -223,13 +201,11 @@ fn over_mass_and_stiffness(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(
 
 fn of_schemes(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
     let mut ratios = Vec::new();
-    let mut command = String::new();
     for scheme in ["generalized-alpha", "hht", "radau-iia", "energy-decaying"] {
         // The parameter of the scheme in the model is for generalized-α.
         let set = [("analysis.scheme", scheme), ("analysis.end", "0.1")];
-        let (table, own) = condition(studio, PENDULUM, &["1e-2", "1e-3", "1e-4", "1e-5"], None, &set)?;
+        let table = conditions(studio, PENDULUM, &with_steps(&["1e-2", "1e-3", "1e-4", "1e-5"], &set))?;
         ratios.push((scheme, spread(&column(&table, PHYSICAL))));
-        command = own;
     }
     let listed: Vec<String> = ratios.iter().map(|(scheme, ratio)| format!("{scheme} {ratio:.2}")).collect();
     claims.push(Claim {
@@ -238,7 +214,7 @@ fn of_schemes(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError>
         agrees: ratios.iter().all(|(_, ratio)| *ratio < FLAT),
         expected: true,
         depends_on: None,
-        command,
+        command: ALL.to_owned(),
     });
     Ok(())
 }
@@ -279,52 +255,42 @@ fn buckling(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
 
 /// Times [s] and displacements u1, u2, u3 at mid-span [m] of a complete run, and the largest violation of a constraint [m].
 fn midspan(studio: &Studio, set: &[(&str, &str)]) -> Result<([Vec<f64>; 4], f64), BookError> {
-    let fail = |reason: String| BookError::Run { example: CRANK, reason };
-    let mut session = studio
-        .example(CRANK)?
-        .with_overrides(&overrides(set))
-        .session()
-        .map_err(|error| fail(error.to_string()))?;
+    let mut session =
+        studio.example(CRANK)?.with_overrides(&overrides(set)).session().map_err(BookError::run(CRANK))?;
     let (record, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if let Some(error) = report.error() {
-        return Err(fail(error.to_string()));
+        return Err(BookError::run(CRANK)(error));
     }
     let of = |component: &str| record.column("midspan", component).map(<[f64]>::to_vec).unwrap_or_default();
     Ok(([record.times.clone(), of("u1"), of("u2"), of("u3")], report.violation))
 }
 
 fn elimination(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
-    let command = study_command("factorization", CRANK, &[], &[]);
-    let table = factorization::study(&studio.example(CRANK)?)?;
-    let case = |scaling: &str, augmented: bool| {
-        let is_it = |case: &&Case| {
-            case.solver == "skyline" && case.augmented == augmented && scaling_name(case) == scaling
-        };
-        table.cases.iter().find(is_it)
-    };
-    let stop = case("none", false).and_then(|case| case.outcome.as_ref().err());
+    let command = "cargo xtask figures factorization-tip-crank".to_owned();
+    let model = studio.example(CRANK)?;
+    let table = study(&model, CRANK, &[])?;
+    let plain = |case: &&Case| case.solver == SOLVER && !case.augmented && case.scaling == "none";
+    let stop = table.iter().find(plain).and_then(|case| case.outcome.as_ref().err());
     claims.push(Claim {
         source: "without the augmented term, the skyline solver fails at the first iteration of the first step",
-        measured: stop.map_or("it has factors".to_owned(), |stop| format!("stops at the {}", stop.unknown)),
+        measured: stop.map_or("it has factors".to_owned(), |stop| format!("stops at the {stop}")),
         agrees: stop.is_some(),
         expected: true,
         depends_on: None,
         command: command.clone(),
     });
-    let unscaled = factors(case("none", true))?;
-    let scaled = factors(case("physical", true))?;
+    let unscaled = factors(&table, "none")?;
+    let scaled = factors(&table, "physical")?;
     claims.push(Claim {
         source: "with it, but without scaling, the skyline solver factors the tangent",
-        measured: format!("smallest / largest pivot {}", one(unscaled.report.relative_pivot())),
+        measured: format!("smallest / largest pivot {}", one(unscaled.relative_pivot)),
         agrees: true,
         expected: true,
         depends_on: None,
         command: command.clone(),
     });
-    let with_light = studio.example(CRANK)?.with_overrides(&overrides(&[("analysis.penalty", "1e-9")]));
-    let with_light = factorization::study(&with_light)?;
-    let is_light = |case: &&Case| case.solver == "skyline" && case.augmented && scaling_name(case) == "none";
-    let light = factors(with_light.cases.iter().find(is_light))?;
+    let with_light = study(&model, CRANK, &[("analysis.penalty", "1e-9")])?;
+    let light = factors(&with_light, "none")?;
     let set = [("analysis.scaling", "none"), ("analysis.solver", "skyline")];
     let ([_, _, plain, _], _) = midspan(studio, &[])?;
     let ([_, _, without, _], _) = midspan(studio, &set)?;
@@ -334,15 +300,15 @@ fn elimination(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError
         measured: format!(
             "they converge: residual {} N in the first step, as with scaling ({} N); all 800 steps, u2 differs by {} m; with p = 1e-9 they \
              stall at a violation of {} m",
-            one(unscaled.newton.residual),
-            one(scaled.newton.residual),
+            one(unscaled.residual),
+            one(scaled.residual),
             one(apart),
-            one(light.newton.violation)
+            one(light.violation)
         ),
         // A run that completes does not agree with it.
-        agrees: unscaled.newton.residual > 10.0 * scaled.newton.residual,
+        agrees: unscaled.residual > 10.0 * scaled.residual,
         expected: false,
-        depends_on: (light.newton.violation > STALLED * scaled.newton.violation).then_some("p"),
+        depends_on: (light.violation > STALLED * scaled.violation).then_some("p"),
         command: format!("lissom run examples/{CRANK}.toml --set analysis.scaling=none --set analysis.solver=skyline"),
     });
     claims.push(Claim {
@@ -360,33 +326,26 @@ fn elimination(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError
     Ok(())
 }
 
-fn factors(case: Option<&Case>) -> Result<&Factored, BookError> {
-    let found = case.and_then(|case| case.outcome.as_ref().ok());
-    found.ok_or_else(|| BookError::Run {
-        example: CRANK,
-        reason: "the augmented tangent has no factors".to_owned(),
-    })
+/// Result with the augmented term.
+fn factors<'a>(cases: &'a [Case], scaling: &str) -> Result<&'a Factored, BookError> {
+    augmented(cases, scaling, SOLVER)
+        .ok_or_else(|| BookError::run(CRANK)("the augmented tangent has no factors"))
 }
 
 /// Backward errors and results of Newton's method in the first step without scaling, by the weight of the augmented term.
 pub(super) fn penalties(studio: &Studio) -> Result<Fragment, BookError> {
     let model = studio.example(CRANK)?;
-    let (mut commands, mut rows) = (Vec::new(), Vec::new());
+    let mut rows = Vec::new();
     for penalty in ["1", "1e-3", "1e-6", "1e-9"] {
-        let set: Vec<Override> = overrides(&[("analysis.penalty", penalty)]);
-        commands.push(study_command("factorization", CRANK, &[], &set));
-        let table = factorization::study(&model.with_overrides(&set))?;
+        let table = study(&model, CRANK, &[("analysis.penalty", penalty)])?;
         let mut line = vec![penalty.to_owned()];
         for scaling in ["none", "physical", "equilibrated"] {
-            let is_it =
-                |case: &&Case| case.solver == "skyline" && case.augmented && scaling_name(case) == scaling;
-            let found = factors(table.cases.iter().find(is_it))?;
-            line.extend([found.backward_error, found.newton.violation].map(one));
+            let found = factors(&table, scaling)?;
+            line.extend([found.backward_error, found.violation].map(one));
         }
         rows.push(line);
     }
     let mut fragment = Fragment::default();
-    fragment.commands(&commands);
     let heading = [
         "p",
         "none: backward error",
@@ -452,15 +411,14 @@ fn orders(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
 
 fn drift(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
     let set = [("analysis.step", "1e-4"), ("analysis.end", "20"), ("analysis.output_every", "1000")];
-    let fail = |reason: String| BookError::Run { example: PENDULUM, reason };
     let mut session = studio
         .example(PENDULUM)?
         .with_overrides(&overrides(&set))
         .session()
-        .map_err(|error| fail(error.to_string()))?;
+        .map_err(BookError::run(PENDULUM))?;
     let (_, report) = session.run().unwrap_or_else(lissom::Results::from).into_parts();
     if let Some(error) = report.error() {
-        return Err(fail(error.to_string()));
+        return Err(BookError::run(PENDULUM)(error));
     }
     claims.push(Claim {
         source: "index-3 equations that are solved directly do not drift",

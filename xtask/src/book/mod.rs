@@ -72,6 +72,11 @@ pub(crate) enum BookError {
 }
 
 impl BookError {
+    /// An error about a run.
+    fn run<E: std::fmt::Display>(example: &'static str) -> impl FnOnce(E) -> Self {
+        move |error| Self::Run { example, reason: error.to_string() }
+    }
+
     /// An error about a file.
     fn file(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
@@ -86,6 +91,12 @@ struct Studio {
 }
 
 impl Studio {
+    /// For tests: without a bar.
+    #[cfg(test)]
+    fn silent() -> Self {
+        Self { root: root(), bar: ProgressBar::hidden() }
+    }
+
     /// A model of the folder of examples.
     fn example(&self, name: &str) -> Result<Model, BookError> {
         Ok(Model::read(&self.root.join(format!("examples/{name}.toml")))?)

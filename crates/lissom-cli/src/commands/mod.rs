@@ -79,7 +79,7 @@ commands! {
         Live(live::Live) "Show a model in the browser and simulate it again whenever it is saved",
         Sweep(sweep::SweepCommand) "Solve a model for many parameter values, on all processors",
         Gradient(AnalysisCommand<GradientRequest>) "Compute derivatives of an output with respect to numbers of the model",
-        Study(study::Study) "Study the effects of scaling, scheme, step size and solver",
+        Study(study::Study) "Study the effects of scheme and step size",
         Fmu(fmu::Fmu) "Export a model as a functional mock-up unit (FMI 3.0, co-simulation)",
     }
     "Linearised models" {

@@ -3,44 +3,6 @@
 use crate::support::{CANTILEVER, Folder, example, lissom, summary};
 
 #[test]
-fn conditioning_prints_a_table_and_leaves_table_and_plot() {
-    let folder = Folder::new("conditioning");
-    let model = example("pendulum");
-    let run = lissom(&["study", "conditioning", &model, "--steps", "1e-1,1e-2"], folder.path());
-    assert_eq!((run.code, run.errors.as_str()), (0, ""));
-    for words in ["2-norm", "step_size", "none", "unit", "physical", "1e-2", "pendulum.csv"] {
-        assert!(run.output.contains(words), "{words}: {}", run.output);
-    }
-    let out = folder.path().join("out/study-conditioning");
-    for file in ["pendulum.csv", "pendulum.svg", "pendulum.png"] {
-        assert!(out.join(file).is_file(), "{file}");
-    }
-    let vary = "point_masses.bob.mass=1,1e2";
-    let arguments =
-        ["study", "conditioning", &model, "--steps", "1e-2", "--vary", vary, "--out", "tables/mass.csv"];
-    assert_eq!(lissom(&arguments, folder.path()).code, 0);
-    let csv = std::fs::read_to_string(folder.path().join("tables/mass.csv")).unwrap();
-    assert!(
-        csv.starts_with(
-            "step_size,point_masses.bob.mass,none,unit,physical,equilibrated,method,end\n1e-2,1,"
-        ),
-        "{csv}"
-    );
-    assert!(folder.path().join("tables/mass.svg").is_file());
-}
-
-#[test]
-fn factorization_names_the_unknown() {
-    let folder = Folder::new("factorization");
-    let run = lissom(&["study", "factorization", &example("tip-crank")], folder.path());
-    assert_eq!((run.code, run.errors.as_str()), (0, ""));
-    let words =
-        "physical, not augmented, sparse: elimination stops at the multiplier of joint `G` (rotation 3)";
-    assert!(run.output.contains(words), "{}", run.output);
-    assert!(folder.path().join("out/study-factorization/tip-crank.csv").is_file());
-}
-
-#[test]
 fn convergence_leaves_table_and_plot() {
     let folder = Folder::new("convergence");
     let mut arguments = vec!["study".to_owned(), "convergence".to_owned(), example("pendulum")];
@@ -80,33 +42,11 @@ fn a_run_that_fails_is_reported_in_its_row() {
 }
 
 #[test]
-fn roundoff_leaves_table_and_plot() {
-    let folder = Folder::new("roundoff");
-    let model = example("pendulum");
-    let run = lissom(
-        &["study", "roundoff", &model, "--steps", "1e-3,1e-5,1e-7", "--output", "force"],
-        folder.path(),
-    );
-    assert_eq!((run.code, run.errors.as_str()), (0, ""));
-    let out = folder.path().join("out/study-roundoff");
-    let csv = std::fs::read_to_string(out.join("pendulum.csv")).unwrap();
-    assert!(csv.starts_with("step_size,error,noise\n1e-3,"), "{csv}");
-    assert!(out.join("pendulum.svg").is_file() && out.join("pendulum.png").is_file());
-}
-
-#[test]
 fn mistakes_have_their_exit_codes() {
     let folder = Folder::new("study-mistakes");
     let model = example("pendulum");
     for arguments in [
-        &["study", "conditioning", &model][..],
-        &["study", "conditioning", &model, "--steps", "never"],
-        &["study", "conditioning", &model, "--steps", "0.1", "--unset", "point_masses.bob"],
-        &["study", "conditioning", &model, "--steps", "0.1", "--vary", "mass"],
-        &["study", "conditioning", &model, "--steps", "0.1", "--vary", "point_masses.ball.mass=1"],
-        &["study", "factorization", "nowhere.toml"],
-        &["study", "roundoff", &model, "--steps", "1e-3", "--output", "bop"],
-        &["study", "convergence", &model, "--schemes", "radau-iia", "--steps", "1e-2", "--output", "bob"],
+        &["study", "convergence", &model, "--schemes", "radau-iia", "--steps", "1e-2", "--output", "bob"][..],
         &["study"],
     ] {
         let run = lissom(arguments, folder.path());
@@ -115,6 +55,7 @@ fn mistakes_have_their_exit_codes() {
     for (schemes, steps, reference, words) in [
         ("newmark", "1e-2", "radau-iia:1e-3", "`newmark` is not a scheme"),
         ("hht(0.5)", "1e-2", "radau-iia:1e-3", "outside"),
+        ("radau-iia", "never", "radau-iia:1e-3", "never"),
         ("radau-iia", "1e-2,6e-3", "radau-iia:1e-3", "6e-3 s does not divide the largest"),
         ("radau-iia", "1e-2", "radau-iia:2e-2", "larger than a step"),
         ("radau-iia", "1e-2", "radau-iia", "SCHEME:STEP"),
@@ -126,7 +67,11 @@ fn mistakes_have_their_exit_codes() {
         assert!(run.errors.contains(words), "{words}: {}", run.errors);
     }
     folder.write("bar.toml", CANTILEVER);
-    let run = lissom(&["study", "conditioning", "bar.toml", "--steps", "0.1"], folder.path());
+    let arguments = ["study", "convergence", "bar.toml", "--output", "bob", "--schemes", "radau-iia"];
+    let run = lissom(
+        &[&arguments[..], &["--steps", "0.1", "--reference", "radau-iia:0.05"]].concat(),
+        folder.path(),
+    );
     assert_eq!(run.code, 2, "{}", run.errors);
 }
 
@@ -159,14 +104,16 @@ fn results_of_studies_are_not_overwritten() {
     let folder = Folder::new("study-again");
     let model = example("pendulum");
     let study = |more: &[&str]| {
-        let arguments = [&["study", "conditioning", &model, "--steps", "1e-2"], more].concat();
+        let runs =
+            ["--schemes", "radau-iia", "--steps", "1e-2", "--reference", "radau-iia:5e-3", "--output", "bob"];
+        let arguments = [&["study", "convergence", &model], &runs[..], more].concat();
         lissom(&arguments, folder.path())
     };
     for name in ["pendulum.csv", "pendulum-2.csv", "pendulum-3.csv"] {
         let run = study(&[]);
         assert_eq!(run.code, 0, "{}", run.errors);
-        assert!(run.output.contains(&format!("results in out/study-conditioning/{name}")), "{}", run.output);
-        assert!(folder.path().join("out/study-conditioning").join(name).is_file());
+        assert!(run.output.contains(&format!("results in out/study-convergence/{name}")), "{}", run.output);
+        assert!(folder.path().join("out/study-convergence").join(name).is_file());
     }
     assert_eq!(study(&["--out", "table.csv"]).code, 0);
     let again = study(&["--out", "table.csv"]);

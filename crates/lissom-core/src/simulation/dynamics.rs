@@ -120,8 +120,8 @@ impl Simulation {
         integrator.has_last_step.then(|| integrator.tangent_at_solution(problem, previous, scaled, of))
     }
 
-    /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
-    pub(crate) fn factored_condition(&mut self) -> Option<f64> {
+    /// Condition number of the tangent factored last, estimated in the 1-norm from a few solves; none if it is no longer in use.
+    pub fn condition_estimate(&mut self) -> Option<f64> {
         let pattern = &self.system.structure().pattern;
         let Integrator { jacobian_state, work, .. } = &mut self.integrator;
         let value = jacobian_state.has_tangent.then(|| work.tangent.matrices.condition_estimate(pattern));

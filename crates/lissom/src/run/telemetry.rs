@@ -100,8 +100,7 @@ impl Telemetry {
     }
 
     fn estimate(&mut self, simulation: &mut Simulation) {
-        if let Some(condition) = simulation.condition_estimate() {
-            let value = condition.value;
+        if let Some(value) = simulation.condition_estimate() {
             self.condition = Some(value);
             let (least, most) = self.range.unwrap_or((value, value));
             self.range = Some((least.min(value), most.max(value)));

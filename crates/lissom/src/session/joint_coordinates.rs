@@ -6,7 +6,7 @@ use lissom_core::assembly::AssemblyError;
 use lissom_core::consistent::mobility::mobility;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::kinematics::CoordinateId;
-use lissom_core::studies::joint_space::{JointSpace, JointSpaceError, check_number};
+use lissom_core::simulation::joint_space::{JointSpace, JointSpaceError, check_number};
 use lissom_core::system::ElementId;
 use lissom_motion::Vector6;
 

@@ -1,8 +1,8 @@
 //! Equations of motion of a session in independent joint coordinates, for control: mass matrix, bias, inverse dynamics, Jacobians.
 
 use lissom_core::kinematics::{CoordinateId, Kinematics};
+use lissom_core::simulation::joint_space::{JointMotion, JointSpace};
 use lissom_core::simulation::{Need, Recovery};
-use lissom_core::studies::joint_space::{JointMotion, JointSpace};
 use lissom_core::system::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::Vector6;

@@ -470,11 +470,6 @@ impl Session {
         Ok(report)
     }
 
-    /// Condition number of the tangent in use, estimated in the 1-norm from a few solves.
-    fn condition_estimate(&mut self) -> Option<f64> {
-        self.simulation.condition_estimate().map(|condition| condition.value)
-    }
-
     /// Runs to the end and stores the results in memory.
     ///
     /// # Errors
@@ -531,7 +526,7 @@ impl Session {
             seconds: self.timings.seconds(),
             violation: self.tally.violation,
             energy: self.tally.energy,
-            conditions: [self.telemetry.first_condition(), self.condition_estimate()],
+            conditions: [self.telemetry.first_condition(), self.simulation.condition_estimate()],
         }
     }
 

@@ -1,9 +1,6 @@
-//! `lissom study`: series of runs that show the effects of scaling, scheme and step size on a model. One study per file.
+//! `lissom study`: series of runs that show the effects of scheme and step size on a model. One study per file.
 
-mod conditioning;
 mod convergence;
-mod factorization;
-mod roundoff;
 
 use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
@@ -20,7 +17,7 @@ use lissom::model::output::LogFigure;
 use super::outcome::{Exit, Failure, warn};
 use super::terminal::Interrupt;
 
-/// Study the effects of scaling, scheme, step size and solver on a model.
+/// Study the effects of scheme and step size on a model.
 #[derive(Args)]
 pub(super) struct Study {
     #[command(subcommand)]
@@ -29,19 +26,13 @@ pub(super) struct Study {
 
 #[derive(Subcommand)]
 enum Kind {
-    Conditioning(conditioning::Conditioning),
-    Factorization(factorization::Factorization),
     Convergence(convergence::Convergence),
-    Roundoff(roundoff::Roundoff),
 }
 
 impl Study {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         match self.kind {
-            Kind::Conditioning(study) => study.run(),
-            Kind::Factorization(study) => study.run(),
             Kind::Convergence(study) => study.run(),
-            Kind::Roundoff(study) => study.run(),
         }
     }
 }
@@ -135,18 +126,6 @@ fn aligned(lines: &[Vec<String>], words: usize) -> String {
     text
 }
 
-/// A number of two digits, with an exponent if it is large or small.
-fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    if (0.1..1000.0).contains(&value.abs()) {
-        let decimals = if value.abs() < 10.0 { 2 } else { 1 };
-        return format!("{value:.decimals$}");
-    }
-    format!("{value:.1e}")
-}
-
 /// The outcome of `study`, with a progress bar on the terminal while it runs; Ctrl-C ends it.
 fn watched<T>(
     interrupt: &Interrupt,
@@ -177,13 +156,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short() {
-        let numbers = [0.0, 14.34, 9.2, 3.24e4, 1e-7, -0.5, f64::INFINITY, 999.96];
-        let texts = numbers.map(short);
-        assert_eq!(texts, ["0", "14.3", "9.20", "3.2e4", "1.0e-7", "-0.50", "inf", "1000.0"]);
-    }
-
-    #[test]
     fn columns_are_aligned() {
         let lines =
             [vec!["h", "none"], vec!["0.01", "3e8"]].map(|line| line.iter().map(|&c| c.to_owned()).collect());
@@ -192,10 +164,10 @@ mod tests {
 
     #[test]
     fn tables_have_a_place() {
-        let path = table_path(None, "conditioning", Path::new("models/arm.toml")).ok().unwrap();
-        assert_eq!(path, Path::new("out/study-conditioning/arm.csv"));
+        let path = table_path(None, "convergence", Path::new("models/arm.toml")).ok().unwrap();
+        assert_eq!(path, Path::new("out/study-convergence/arm.csv"));
         let path =
-            table_path(Some(&PathBuf::from("a/b.csv")), "conditioning", Path::new("arm.toml")).ok().unwrap();
+            table_path(Some(&PathBuf::from("a/b.csv")), "convergence", Path::new("arm.toml")).ok().unwrap();
         assert_eq!(path, Path::new("a/b.csv"));
     }
 }

@@ -1,16 +1,13 @@
 //! Studies: comparisons of a family of runs of one model. They return tables; the command line prints, writes and
 //! draws them.
 
-pub mod conditioning;
 pub mod convergence;
-pub mod factorization;
 mod members;
 mod observed;
-pub mod roundoff;
 mod scheme_words;
 
 use lissom_core::diagnostics::Diagnose;
-use lissom_core::errors::{InitialError, StepError};
+use lissom_core::errors::InitialError;
 use lissom_model::Report;
 use lissom_model::output::quoted;
 
@@ -27,8 +24,6 @@ pub enum StudyError {
     Model(#[from] Report),
     /// There are no consistent initial values.
     Initial(#[from] InitialError),
-    /// A step has no solution.
-    Step(#[from] StepError),
     /// The study requires time steps, and the analysis has load steps.
     NotDynamic,
     /// A run ended early.
