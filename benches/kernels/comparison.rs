@@ -4,12 +4,14 @@
 //! which `libsuitesparse-dev` must be installed. `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns.
 
 mod contenders;
+#[path = "../../crates/lissom-solver/tests/samples.rs"]
+mod samples;
 
 use std::time::{Duration, Instant};
 
 use contenders::{Contender, Ours, ldlt::Ldlt, lu::Lu};
 use lissom_solver::Pattern;
-use lissom_solver::samples::{Model, chain, closed_loop, grid, right_hand_side, tree};
+use samples::{Model, chain, closed_loop, grid, right_hand_side, tree};
 
 type Family = (&'static str, fn(usize) -> Model);
 const FAMILIES: [Family; 4] = [("chain", chain), ("tree", tree), ("loop", closed_loop), ("grid", grid)];

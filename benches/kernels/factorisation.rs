@@ -1,10 +1,13 @@
 //! Refactorisation and solve of chains, beams, trees and grids, by solver and number of unknowns.
 //!
-//! `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns. Skyline is left out where its profile makes it hopeless.
+//! `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns.
+
+#[path = "../../crates/lissom-solver/tests/samples.rs"]
+mod samples;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use lissom_solver::kind;
-use lissom_solver::samples::{Model, chain, grid, right_hand_side, spherical_chain, tree, two_node_beam};
+use samples::{Model, chain, grid, right_hand_side, spherical_chain, tree, two_node_beam};
 
 type Family = (&'static str, fn(usize) -> Model);
 const FAMILIES: [Family; 5] = [
@@ -14,7 +17,7 @@ const FAMILIES: [Family; 5] = [
     ("spherical chain", spherical_chain),
     ("beam", two_node_beam),
 ];
-const SOLVERS: [&str; 3] = ["sparse", "skyline", "pivoting"];
+const SOLVERS: [&str; 2] = ["sparse", "pivoting"];
 
 fn sizes() -> Vec<usize> {
     let mut sizes = vec![200, 300, 2_000, 20_000];
@@ -22,10 +25,6 @@ fn sizes() -> Vec<usize> {
         sizes.push(200_000);
     }
     sizes
-}
-
-fn is_hopeless(solver: &str, family: &str, size: usize) -> bool {
-    solver == "skyline" && ["tree", "grid"].contains(&family) && size > 2_000
 }
 
 fn factorisation(criterion: &mut Criterion) {
@@ -36,7 +35,7 @@ fn factorisation(criterion: &mut Criterion) {
             let values = model.values::<f64>(&structure.pattern, 1, 1.0);
             let b = right_hand_side::<f64>(model.size, 2);
             for name in SOLVERS {
-                let Some(kind) = kind(name).filter(|_| !is_hopeless(name, family, size)) else { continue };
+                let Some(kind) = kind(name) else { continue };
                 let mut solver = (kind.real)(&structure);
                 let mut group = criterion.benchmark_group(format!("{family}/factor"));
                 group.sample_size(10).bench_function(BenchmarkId::new(name, size), |bencher| {
@@ -62,12 +61,10 @@ fn analysis(criterion: &mut Criterion) {
         for size in sizes() {
             let structure = model(size).structure();
             let mut group = criterion.benchmark_group(format!("{family}/analysis"));
-            for name in ["sparse", "skyline"] {
-                let Some(kind) = kind(name).filter(|_| !is_hopeless(name, family, size)) else { continue };
-                group.sample_size(10).bench_function(BenchmarkId::new(name, size), |bencher| {
-                    bencher.iter(|| (kind.real)(&structure));
-                });
-            }
+            let Some(kind) = kind("sparse") else { continue };
+            group.sample_size(10).bench_function(BenchmarkId::new(kind.name, size), |bencher| {
+                bencher.iter(|| (kind.real)(&structure));
+            });
             group.finish();
         }
     }

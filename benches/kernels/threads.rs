@@ -2,12 +2,13 @@
 //!
 //! `cargo bench --manifest-path benches/kernels/Cargo.toml --bench threads`; `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns.
 
+#[path = "../../crates/lissom-solver/tests/samples.rs"]
+mod samples;
+
 use std::time::{Duration, Instant};
 
-use lissom_solver::samples::{
-    Model, chain, closed_loop, grid, right_hand_side, spherical_chain, tree, two_node_beam,
-};
 use lissom_solver::{LinearSolver, Multifrontal, Symmetric};
+use samples::{Model, chain, closed_loop, grid, right_hand_side, spherical_chain, tree, two_node_beam};
 
 type Family = (&'static str, fn(usize) -> Model);
 const FAMILIES: [Family; 6] = [

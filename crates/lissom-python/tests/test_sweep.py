@@ -140,14 +140,14 @@ def test_plots_show_every_member() -> None:
 
     matplotlib.use("Agg")
     model = lissom.load(PENDULUM, **{"analysis.end": 0.1})
-    vary = {"point_masses.bob.mass": [1, 2, 3], "analysis.solver": ["sparse", "dense"]}
+    vary = {"point_masses.bob.mass": [1, 2, 3], "analysis.solver": ["sparse", "pivoting"]}
     table = lissom.sweep(model, vary, collect=COLLECT)
     axes = table.plot().axes
     assert len(axes) == 4
     (line,) = axes[0].lines
     assert np.array_equal(line.get_xdata(), table["point_masses.bob.mass"])
     assert np.array_equal(line.get_ydata(), table["swing"])
-    assert [tick.get_text() for tick in axes[3].get_xticklabels()] == ["sparse", "dense"]
+    assert [tick.get_text() for tick in axes[3].get_xticklabels()] == ["sparse", "pivoting"]
     (ax,) = table.plot_parallel().axes
     lines = [line for line in ax.lines if len(line.get_xdata()) == 4]
     assert len(lines) == 6 and [tick.get_text() for tick in ax.get_xticklabels()] == [*vary, *COLLECT]

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use crate::solver::LinearSolver;
 use crate::structure::Structure;
-use crate::{dense, multifrontal, pivoting, skyline};
+use crate::{multifrontal, pivoting};
 
 /// A kind of solver: one line in [`KINDS`].
 pub struct SolverKind {
@@ -28,22 +28,10 @@ pub static KINDS: &[SolverKind] = &[
         complex: |structure| Box::new(multifrontal::Multifrontal::<Complex64>::new(structure)),
     },
     SolverKind {
-        name: skyline::NAME,
-        summary: "profile storage without pivoting: short, readable, good for chains",
-        real: |structure| Box::new(skyline::Skyline::<f64>::new(structure)),
-        complex: |structure| Box::new(skyline::Skyline::<Complex64>::new(structure)),
-    },
-    SolverKind {
         name: pivoting::NAME,
         summary: "sparse LU with partial pivoting: fallback, and for comparison",
         real: |structure| Box::new(pivoting::Pivoting::<f64>::new(structure)),
         complex: |structure| Box::new(pivoting::Pivoting::<Complex64>::new(structure)),
-    },
-    SolverKind {
-        name: dense::NAME,
-        summary: "dense matrix with partial pivoting: reference for small sizes",
-        real: |structure| Box::new(dense::Dense::<f64>::new(structure)),
-        complex: |structure| Box::new(dense::Dense::<Complex64>::new(structure)),
     },
 ];
 

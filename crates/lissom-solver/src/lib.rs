@@ -24,38 +24,33 @@
 //! ```
 
 mod condition;
-mod dense;
 mod entries;
-mod extended;
 pub mod interrupt;
 mod kinds;
 mod multifrontal;
 mod ordering;
 mod pattern;
 mod pivoting;
-mod refinement;
 mod report;
-pub mod samples;
 mod scalar;
-mod singular_values;
-mod skyline;
 mod solver;
 mod structure;
 mod thread_pool;
 
+#[cfg(test)]
+extern crate self as lissom_solver;
+#[cfg(test)]
+#[path = "../tests/samples.rs"]
+mod samples;
+
 pub use condition::condition_estimate;
-pub use dense::Dense;
-pub use extended::Extended;
 pub use kinds::{KINDS, SYMMETRIC, SolverKind, kind};
 pub use multifrontal::{Kernels, Multifrontal, Symmetric};
-pub use ordering::{minimum_degree_order, profile_order};
+pub use ordering::minimum_degree_order;
 pub use pattern::Pattern;
 pub use pivoting::Pivoting;
-pub use refinement::{Refined, refined_solution};
 pub use report::{FactorError, FactorReport, TINY_PIVOT};
 pub use scalar::Scalar;
-pub use singular_values::{condition_number, singular_values};
-pub use skyline::Skyline;
 pub use solver::{LinearSolver, SEVERAL};
 pub use structure::{Group, Structure, StructureError};
 pub use thread_pool::in_parallel;

@@ -4,7 +4,10 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use lissom_solver::kind;
-use lissom_solver::samples::{chain, grid, right_hand_side};
+
+mod samples;
+
+use samples::{chain, grid, right_hand_side};
 
 thread_local! {
     /// Of this thread alone: the thread that runs the tests allocates when it likes.
@@ -43,18 +46,16 @@ fn factoring_and_solving_allocate_nothing() {
         let structure = model.structure();
         let values = model.values::<f64>(&structure.pattern, 1, 1.0);
         let refused = model.values::<f64>(&structure.pattern, 1, 0.0);
-        for name in ["sparse", "skyline", "dense"] {
-            let mut solver = (kind(name).unwrap().real)(&structure);
-            let mut x = right_hand_side::<f64>(model.size, 2);
-            let count = allocations(|| {
-                for _ in 0..3 {
-                    let _ = solver.factor(&refused);
-                    solver.factor(&values).unwrap();
-                    solver.solve(&mut x);
-                    solver.solve_transposed(&mut x);
-                }
-            });
-            assert_eq!(count, 0, "{name}");
-        }
+        let mut solver = (kind("sparse").unwrap().real)(&structure);
+        let mut x = right_hand_side::<f64>(model.size, 2);
+        let count = allocations(|| {
+            for _ in 0..3 {
+                let _ = solver.factor(&refused);
+                solver.factor(&values).unwrap();
+                solver.solve(&mut x);
+                solver.solve_transposed(&mut x);
+            }
+        });
+        assert_eq!(count, 0);
     }
 }

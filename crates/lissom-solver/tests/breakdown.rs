@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use lissom_solver::samples::{Model, chain, tree};
+use crate::samples::{Model, chain, tree};
 use lissom_solver::{FactorError, FactorReport, Group, KINDS, Pattern, Structure, kind};
 
-const WITHOUT_PIVOTING: [&str; 2] = ["sparse", "skyline"];
+const WITHOUT_PIVOTING: [&str; 1] = ["sparse"];
 
 fn factor(name: &str, structure: &Structure, values: &[f64]) -> Result<FactorReport, FactorError> {
     (kind(name).unwrap().real)(structure).factor(values)
@@ -30,8 +30,8 @@ fn a_coordinate_without_stiffness_is_named_when_nothing_augments_it() {
                 other => panic!("{name}: {other:?}"),
             }
         }
-        // The matrix is regular: solvers that pivot have no difficulty.
-        factor("dense", &structure, &values).unwrap();
+        // The matrix is regular: a solver that pivots has no difficulty.
+        factor("pivoting", &structure, &values).unwrap();
         // With the augmented term it goes through.
         let values = model.values::<f64>(&structure.pattern, 5, 1.0);
         for name in WITHOUT_PIVOTING {
@@ -104,7 +104,7 @@ fn a_solver_recovers_from_a_failure() {
     let structure = model.structure();
     let good = model.values::<f64>(&structure.pattern, 8, 1.0);
     let bad = model.values::<f64>(&structure.pattern, 8, 0.0);
-    let b = lissom_solver::samples::right_hand_side::<f64>(model.size, 9);
+    let b = crate::samples::right_hand_side::<f64>(model.size, 9);
     for name in WITHOUT_PIVOTING {
         let mut solver = (kind(name).unwrap().real)(&structure);
         solver.factor(&good).unwrap();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_solver::samples::{Model, Random, chain, closed_loop, grid, right_hand_side, tree};
+use crate::samples::{Model, Random, chain, closed_loop, grid, right_hand_side, tree};
 use lissom_solver::{KINDS, Pattern, Structure, condition_estimate, kind};
 use num_complex::Complex64;
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn scaling_by_a_power_of_two_changes_no_digit() {
         let structure = model.structure();
         let values = model.values::<f64>(&structure.pattern, 1, 1.0);
         let b = right_hand_side::<f64>(model.size, 2);
-        for name in ["sparse", "skyline", "dense"] {
+        for name in ["sparse", "pivoting"] {
             let x = solved(name, &structure, &values, &b);
             for exponent in [-300, -7, 40, 200] {
                 let scale = 2.0_f64.powi(exponent);
@@ -54,12 +54,10 @@ fn rows_and_columns_scaled_by_powers_of_two_change_no_digit() {
             }
         }
         let scaled_b: Vec<f64> = b.iter().zip(&scales).map(|(b, scale)| b * scale).collect();
-        for name in ["sparse", "skyline"] {
-            let x = solved(name, &structure, &values, &b);
-            let y = solved(name, &structure, &scaled, &scaled_b);
-            let back: Vec<f64> = y.iter().zip(&scales).map(|(y, scale)| y * scale).collect();
-            assert_eq!(x, back, "{name}");
-        }
+        let x = solved("sparse", &structure, &values, &b);
+        let y = solved("sparse", &structure, &scaled, &scaled_b);
+        let back: Vec<f64> = y.iter().zip(&scales).map(|(y, scale)| y * scale).collect();
+        assert_eq!(x, back);
     }
 }
 
@@ -207,7 +205,7 @@ proptest! {
             }
         }
         let shuffled = Structure::new(Arc::clone(&structure.pattern), groups).unwrap();
-        for name in ["sparse", "skyline"] {
+        for name in ["sparse", "pivoting"] {
             let x = solved(name, &structure, &values, &b);
             let y = solved(name, &shuffled, &values, &b);
             let scale = x.iter().fold(0.0, |scale: f64, x| scale.max(x.abs()));

@@ -4,5 +4,6 @@ mod breakdown;
 mod exactness;
 mod orderings;
 mod saddle_points;
+mod samples;
 mod symmetric;
 mod threads;

@@ -1,6 +1,6 @@
 //! The number of threads changes times, not a bit of what comes out.
 
-use lissom_solver::samples::{
+use crate::samples::{
     Model, Sample, backward_error, closed_loop, grid, right_hand_side, spherical_chain, tree,
 };
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Structure, kind};

@@ -8,13 +8,12 @@ use lissom::core::scaling::{ScaleBy, ScalingChoice};
 use lissom::core::simulation::Simulation;
 use lissom::start::{Lowered, lower};
 use lissom_model::output::LogFigure;
-use lissom_solver::{
-    LinearSolver, Scalar, SolverKind, Structure, condition_estimate, condition_number, kind,
-};
+use lissom_solver::{LinearSolver, Scalar, SolverKind, Structure, condition_estimate, kind};
 
 use super::fragment::{Fragment, overrides};
 use super::numbers::two;
 use super::published::{self, MASSES, STEPS};
+use super::singular_values::condition_number;
 use super::{BookError, Studio};
 
 /// The mass of the pendulum's point, as a path into its model.

@@ -5,14 +5,17 @@ mod check;
 mod claims;
 mod conditioning;
 mod convergence;
+mod extended;
 mod factorization;
 mod fragment;
 mod generators;
 mod numbers;
 mod published;
+mod refinement;
 mod regions;
 mod roundoff;
 mod simulation;
+mod singular_values;
 mod work;
 
 use std::ops::ControlFlow;

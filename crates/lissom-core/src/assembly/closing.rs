@@ -32,9 +32,6 @@ const CLOSING_SHARE: f64 = 1e-3;
 /// Relative decrease of the squared violations below which a step is slow, and number of consecutive slow steps that are allowed.
 const SLOW_PROGRESS: (f64, usize) = (1e-8, 5);
 
-/// Number of unknowns up to which a dense matrix is faster.
-const DENSE: usize = 60;
-
 /// Positions of all groups and coordinates.
 #[derive(Clone)]
 pub(super) struct Pose {
@@ -68,9 +65,8 @@ impl<'a> Closing<'a> {
         let structure = Structure::ungrouped(Pattern::from_entries(size, entries).into());
         let is_empty = columns.count[0] == 0 || columns.rows.is_empty();
         // Without row exchanges, and with equilibration, the small weights of coordinates cost accuracy.
-        let sparse = lissom_solver::kind("pivoting").filter(|_| size > DENSE);
-        let kind = sparse.or_else(|| lissom_solver::kind("dense"));
-        let saddle = kind.filter(|_| !is_empty).map(|kind| {
+        let kind = lissom_solver::kind("pivoting").filter(|_| !is_empty);
+        let saddle = kind.map(|kind| {
             let matrix = Matrix::new((kind.real)(&structure), &structure);
             SaddlePoint::new(matrix, columns.count[0]).with_all_equations()
         });

@@ -64,6 +64,6 @@ pub(crate) fn registry() -> Registry {
         kind("moment", "on = \"a.end\"\nvector = [0, 0, 1]", Ports::ONE_NODE, LOAD),
     ];
     let schemes = vec![choice("generalized-alpha", RADIUS), choice("hht", ALPHA), choice("radau-iia", &[])];
-    let solvers = vec![choice("sparse", &[]), choice("dense", &[])];
+    let solvers = vec![choice("sparse", &[]), choice("pivoting", &[])];
     Registry { joints, springs, loads, schemes, solvers }
 }

@@ -10,7 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// The number `high + low`, with `|low|` at most half a unit in the last place of `high`. Relative errors of
 /// single operations stay below 1e-31.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Extended {
+pub(super) struct Extended {
     high: f64,
     low: f64,
 }
@@ -39,25 +39,25 @@ fn product(a: f64, b: f64) -> (f64, f64) {
 
 impl Extended {
     /// Zero.
-    pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
+    pub(super) const ZERO: Self = Self { high: 0.0, low: 0.0 };
     /// One.
-    pub const ONE: Self = Self { high: 1.0, low: 0.0 };
+    pub(super) const ONE: Self = Self { high: 1.0, low: 0.0 };
 
     /// The double next to this number.
     #[inline]
-    pub fn to_f64(self) -> f64 {
+    pub(super) fn to_f64(self) -> f64 {
         self.high
     }
 
     /// Magnitude.
     #[inline]
-    pub fn abs(self) -> Self {
+    pub(super) fn abs(self) -> Self {
         if self.high < 0.0 { -self } else { self }
     }
 
     /// Square root; not a number below zero.
     #[inline]
-    pub fn sqrt(self) -> Self {
+    pub(super) fn sqrt(self) -> Self {
         if self.high == 0.0 {
             return Self::ZERO;
         }
@@ -70,7 +70,7 @@ impl Extended {
 
     /// Product of two doubles, without error.
     #[inline]
-    pub fn product_of(a: f64, b: f64) -> Self {
+    pub(super) fn product_of(a: f64, b: f64) -> Self {
         let (high, low) = product(a, b);
         Self { high, low }
     }

@@ -2,11 +2,13 @@
 //! with a coordinate of their own on which only constraints act, and multipliers. Random values; independent of any
 //! solver.
 
+#![allow(dead_code, unreachable_pub, reason = "a module of several programs, each of which uses a part")]
+
 use std::sync::Arc;
 
 use num_complex::Complex64;
 
-use crate::{Group, Pattern, Scalar, Structure};
+use lissom_solver::{Group, Pattern, Scalar, Structure};
 
 /// Small random numbers in (-1, 1), reproducible on every platform (`SplitMix64`, Steele et al. 2014).
 pub struct Random(

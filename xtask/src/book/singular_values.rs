@@ -4,9 +4,9 @@
 //! Hestenes 1958: rotations from the right make the columns orthogonal; their lengths are then the singular
 //! values. In double precision values below 1e-16 of the largest are noise; here the limit is about 1e-30.
 
-use crate::extended::Extended;
-use crate::pattern::Pattern;
-use crate::scalar::Scalar;
+use lissom_solver::{Pattern, Scalar};
+
+use super::extended::Extended;
 
 /// Columns are considered orthogonal if the cosine between them is below this: the remainder changes the lengths by a
 /// relative amount of that order.
@@ -19,7 +19,7 @@ const SWEEPS: usize = 60;
 ///
 /// # Panics
 /// If there are not `size²` numbers.
-pub fn singular_values(size: usize, matrix: &[f64]) -> Vec<f64> {
+pub(super) fn singular_values(size: usize, matrix: &[f64]) -> Vec<f64> {
     assert_eq!(matrix.len(), size * size, "a square matrix");
     let mut columns: Vec<Vec<Extended>> = matrix
         .chunks(size.max(1))
@@ -49,7 +49,7 @@ pub fn singular_values(size: usize, matrix: &[f64]) -> Vec<f64> {
 ///
 /// # Panics
 /// If the number of values is not that of the entries in the pattern.
-pub fn condition_number<S: Scalar>(pattern: &Pattern, values: &[S]) -> f64 {
+pub(super) fn condition_number<S: Scalar>(pattern: &Pattern, values: &[S]) -> f64 {
     assert_eq!(values.len(), pattern.entries(), "one value for each entry of the pattern");
     let count = pattern.size();
     if count == 0 {

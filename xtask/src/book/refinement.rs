@@ -1,10 +1,9 @@
 //! Solutions to more digits than those of a solver: iterative refinement with residuals and solution in extended
 //! precision, for measuring the error of a solution of any solver.
 
-use crate::extended::Extended;
-use crate::pattern::Pattern;
-use crate::scalar::Scalar;
-use crate::solver::LinearSolver;
+use lissom_solver::{LinearSolver, Pattern, Scalar};
+
+use super::extended::Extended;
 
 /// Maximum number of rounds; each adds as many digits as the solver has.
 const ROUNDS: usize = 40;
@@ -13,13 +12,13 @@ const ENOUGH: f64 = 1e-20;
 
 /// A solution by the solver, and its error.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refined<S> {
+pub(super) struct Refined<S> {
     /// Solution of the solver.
-    pub solved: Vec<S>,
+    pub(super) solved: Vec<S>,
     /// Error of each unknown, `solved - exact`.
-    pub errors: Vec<S>,
+    pub(super) errors: Vec<S>,
     /// Whether refinement converged: otherwise the errors are lower bounds at best.
-    pub converged: bool,
+    pub(super) converged: bool,
 }
 
 /// Solves `A x = b` for the matrix with these values, which the solver factored last, and computes the error of the
@@ -27,7 +26,7 @@ pub struct Refined<S> {
 ///
 /// # Panics
 /// If a slice has the wrong length.
-pub fn refined_solution<S: Scalar>(
+pub(super) fn refined_solution<S: Scalar>(
     solver: &mut dyn LinearSolver<S>,
     pattern: &Pattern,
     values: &[S],
@@ -110,8 +109,9 @@ mod tests {
 
     use num_complex::Complex64;
 
+    use lissom_solver::{Structure, kind};
+
     use super::*;
-    use crate::{Structure, kind};
 
     /// Hilbert matrices times 360360: exact integers up to size 8 with a large condition number (1e10).
     fn matrix(size: usize) -> (Structure, Vec<f64>) {
@@ -127,7 +127,7 @@ mod tests {
         let known = [1.0, -2.0, 3.0, -4.0, 5.0, -6.0, 7.0];
         let mut b = [0.0; 7];
         pattern.multiply(&values, &known, &mut b);
-        let mut solver = (kind("dense").unwrap().real)(&structure);
+        let mut solver = (kind("pivoting").unwrap().real)(&structure);
         solver.factor(&values).unwrap();
         let refined = refined_solution(&mut *solver, pattern, &values, &b);
         assert!(refined.converged);
@@ -147,7 +147,7 @@ mod tests {
         let known = [1, 2, 3, 4, 5, 6].map(|k| Complex64::new(f64::from(k), f64::from(-k * k)));
         let mut b = [Complex64::default(); 6];
         pattern.multiply(&values, &known, &mut b);
-        let mut solver = (kind("dense").unwrap().complex)(&structure);
+        let mut solver = (kind("pivoting").unwrap().complex)(&structure);
         solver.factor(&values).unwrap();
         let refined = refined_solution(&mut *solver, pattern, &values, &b);
         assert!(refined.converged);
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn a_solver_of_another_matrix_is_reported() {
         let (structure, values) = matrix(4);
-        let mut solver = (kind("dense").unwrap().real)(&structure);
+        let mut solver = (kind("pivoting").unwrap().real)(&structure);
         solver.factor(&values).unwrap();
         let other: Vec<f64> = values.iter().map(|value| -value).collect();
         let refined = refined_solution(&mut *solver, &structure.pattern, &other, &[1.0, 2.0, 3.0, 4.0]);
