@@ -14,14 +14,5 @@ pub use warning::Warning;
 pub(crate) const MAX_LISTED: usize = 4;
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every step returns one of them: a large error is copied although nothing has failed.
-    #[test]
-    fn errors_are_small() {
-        for size in [size_of::<StepError>(), size_of::<InitialError>()] {
-            assert!(size < 128, "{size} bytes: give a message instead of further parts");
-        }
-    }
-}
+#[path = "../../tests/unit/errors/mod.rs"]
+mod tests;

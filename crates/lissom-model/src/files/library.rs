@@ -168,15 +168,5 @@ pub(crate) fn joined(from: &str, path: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_have_one_name() {
-        assert_eq!(joined("", "leg.toml"), "leg.toml");
-        assert_eq!(joined("parts/arm.toml", "./leg.toml"), "parts/leg.toml");
-        assert_eq!(joined("parts/arm.toml", "../leg.toml"), "leg.toml");
-        assert_eq!(joined("arm.toml", "../../leg.toml"), "../../leg.toml");
-        assert_eq!(joined("parts/arm.toml", "/a/b/../leg.toml"), "/a/leg.toml");
-    }
-}
+#[path = "../../tests/unit/files/library.rs"]
+mod tests;

@@ -44,13 +44,5 @@ fn number(text: &mut Peekable<Chars<'_>>) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_compared_as_people_count() {
-        let names = ["leg10.rod", "a", "leg2.rod", "leg2", "B", "leg02", "leg1.rod"];
-        let sorted = by_name(&names, |name| name);
-        assert_eq!(sorted, [&"B", &"a", &"leg1.rod", &"leg02", &"leg2", &"leg2.rod", &"leg10.rod"]);
-    }
-}
+#[path = "../../tests/unit/lower/order.rs"]
+mod tests;

@@ -19,12 +19,5 @@ fn indices(counts: &[usize]) -> Result<Vec<usize>, String> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn members_take_values_side_by_side() {
-        assert_eq!(indices(&[2, 2, 2]).unwrap(), [0, 0, 0, 1, 1, 1]);
-        assert!(indices(&[2, 3]).unwrap_err().contains("2 for one path and 3"));
-    }
-}
+#[path = "../../../tests/unit/sweep/sampling/list.rs"]
+mod tests;

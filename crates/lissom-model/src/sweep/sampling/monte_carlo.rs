@@ -17,13 +17,5 @@ fn fractions(paths: usize, members: usize, seed: u64) -> Result<Vec<f64>, String
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn more_members_leave_the_first_ones() {
-        let few = fractions(3, 10, 5).unwrap();
-        assert_eq!(fractions(3, 20, 5).unwrap()[..30], few);
-        assert_ne!(fractions(3, 10, 6).unwrap(), few);
-    }
-}
+#[path = "../../../tests/unit/sweep/sampling/monte_carlo.rs"]
+mod tests;

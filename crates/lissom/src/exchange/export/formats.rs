@@ -27,16 +27,5 @@ pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formats_are_distinguished() {
-        for (k, format) in FORMATS.iter().enumerate() {
-            assert!(!format.summary.is_empty());
-            for other in &FORMATS[..k] {
-                assert!(format.name != other.name && format.target != other.target);
-            }
-        }
-    }
-}
+#[path = "../../../tests/unit/exchange/export/formats.rs"]
+mod tests;
