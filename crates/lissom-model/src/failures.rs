@@ -63,9 +63,8 @@ catalogued! {
         }
         BadLine { 0 => line } => "table-line" {
             cause: "line {line} does not contain one number for each column",
-            remedy: "run the model again",
+            remedy: "run the model again, or correct the line",
             meaning: "A line of the table of results has too many or too few numbers, or a word.",
-            advice: "Run the model again, or correct the line.",
         }
     } wraps {}
 
@@ -91,15 +90,13 @@ catalogued! {
         }
         Units { name => name, first => first, second => second } => "plot-units" {
             cause: "`{name}` is in {first} in one of the results, and in {second} in another one",
-            remedy: "plot them separately",
+            remedy: "plot the results separately",
             meaning: "Results are drawn in one plot, and a column has different units in them.",
-            advice: "Plot the results separately.",
         }
         NothingShared {} => "plot-nothing-shared" {
             cause: "the results have no output in common",
-            remedy: "plot them separately",
+            remedy: "plot the results separately, or record outputs of the same name",
             meaning: "Several results are drawn in one plot by columns of the same name, and there is none.",
-            advice: "Plot the results separately, or record outputs of the same name.",
         }
         NoSpectrum { 0 => name } => "plot-spectrum" {
             cause: "`{name}` has no spectrum",

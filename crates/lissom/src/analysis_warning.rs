@@ -215,9 +215,8 @@ catalogued! {
         ModeCountUnknown {} => "mode-count-unknown" {
             cause: "it is unknown whether modes were missed: the matrices of the count could not be factored, or their counts are \
                     inconsistent",
-            remedy: "compare with a larger `count`",
+            remedy: "compare with the modes of a larger `count`",
             meaning: "The number of modes below the last one could not be verified.",
-            advice: "Compare with the modes of a larger `count`.",
         }
         FewerModes { wanted => wanted, evidence => evidence, found => found } => "fewer-modes" {
             cause: "{wanted} modes were requested, and {evidence} only {found}",
@@ -234,19 +233,16 @@ catalogued! {
                     stiffness does not change in proportion to the loads",
             remedy: "locate the critical points by an analysis of kind `path`",
             meaning: "The linear estimate of buckling loads assumes small rotations under the loads.",
-            advice: "Follow the equilibrium path by an analysis of kind `path`.",
         }
         LoadFactorUnknown {} => "load-factor-unknown" {
             cause: "it is unknown whether a lower load factor was missed",
-            remedy: "compare with a larger `count`",
+            remedy: "compare with the load factors of a larger `count`",
             meaning: "The number of load factors below the last one could not be verified.",
-            advice: "Compare with the load factors of a larger `count`.",
         }
         NoLoadFactorFound {} => "load-factor-not-found" {
             cause: "no load factor was found, and it is unknown whether there is one",
-            remedy: "follow the path by an analysis of kind `path`",
+            remedy: "follow the equilibrium path by an analysis of kind `path`",
             meaning: "The search found no load factor, and the number of load factors could not be verified.",
-            advice: "Follow the equilibrium path by an analysis of kind `path`.",
         }
         Stiffening {} => "loads-stiffen" {
             cause: "no positive load factor makes the stiffness singular: these loads stiffen the model",
@@ -256,21 +252,18 @@ catalogued! {
         }
         FewerLoadFactors { wanted => wanted, found => found } => "fewer-load-factors" {
             cause: "{wanted} load factors were requested, and the model has only {found}",
-            remedy: "request fewer",
+            remedy: "request fewer load factors, or use more elements",
             meaning: "The model has fewer positive load factors than requested.",
-            advice: "Request fewer load factors, or use more elements.",
         }
         ResponseOfMotion {} => "response-of-motion" {
             cause: "the model moves: outputs in global axes are those at the instant of linearisation",
-            remedy: "use outputs in axes of parts",
+            remedy: "use outputs in axes of parts, or linearise about a state at rest",
             meaning: "The axes of outputs of a moving model change with time, and a frequency response has those of an instant.",
-            advice: "Use outputs in axes of parts, or linearise about a state at rest.",
         }
         TooManyFrequencies { limit => limit } => "response-not-resolved" {
             cause: "more than {limit} frequencies would be required to resolve every change",
-            remedy: "use a smaller range",
+            remedy: "use a smaller range of frequencies, or more damping",
             meaning: "A frequency response has more peaks than the table can resolve.",
-            advice: "Use a smaller range of frequencies, or more damping.",
         }
         PeaksUnknown { reason => reason } => "response-peaks-unknown" {
             cause: "narrow peaks may be missed, because natural frequencies could not be computed: {reason}",
@@ -287,15 +280,13 @@ catalogued! {
         PeaksAbove { frequency => frequency } => "response-peaks-above" {
             cause: "natural frequencies were computed up to {frequency} Hz: above, peaks narrower than the spacing of frequencies \
                     may be missed",
-            remedy: "use a smaller range, or more `points`",
+            remedy: "use a smaller range of frequencies, or more `points`",
             meaning: "The range of a frequency response has more natural frequencies than are computed.",
-            advice: "Use a smaller range, or more frequencies.",
         }
         Undamped { count => count } => "response-undamped" {
             cause: "the response is unbounded at natural frequencies that have no damping ({count} in the range)",
-            remedy: "add damping",
+            remedy: "add damping to the materials, springs or joints",
             meaning: "The peaks of an undamped model are infinite; the table has finite values beside them.",
-            advice: "Add damping to the materials, springs or joints.",
         }
         GravityOmitted {} => "reduction-without-gravity" {
             cause: "gravity is omitted: the weight is that in the model that uses the superelement",
@@ -305,9 +296,8 @@ catalogued! {
         }
         InterfaceModesUnknown {} => "reduction-mode-count" {
             cause: "it is unknown whether modes with fixed interfaces were missed",
-            remedy: "compare with more modes",
+            remedy: "compare with a reduction with more modes",
             meaning: "The number of modes with fixed interfaces could not be verified.",
-            advice: "Compare with a reduction with more modes.",
         }
         FirstOrder {} => "reduction-first-order" {
             cause: "the parts are connected by joints or relations: terms of second order in the deformation are not computed, so the \
@@ -317,9 +307,8 @@ catalogued! {
         }
         FarFromReference {} => "study-far-from-reference" {
             cause: "no run is close to the reference, which may itself be inaccurate",
-            remedy: "use a smaller step for the reference",
+            remedy: "use a smaller step for the reference, and smaller steps",
             meaning: "The errors of a convergence study are differences from a reference, from which all runs are far away.",
-            advice: "Use a smaller step for the reference, and smaller steps.",
         }
         Redundant { joint => joint, equation => equation, follows => follows } => "redundant-constraint" {
             cause: "{equation} of joint `{joint}` follows from {follows}",

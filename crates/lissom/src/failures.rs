@@ -34,9 +34,8 @@ catalogued! {
     Failure SessionError {
         NotInTime { 0 => kind } => "session-kind" {
             cause: "an analysis of kind `{kind}` has no time steps",
-            remedy: "use an analysis of kind `dynamics` or `statics`",
+            remedy: "use an analysis of kind `dynamics` or `statics`, or the function for the analysis of this kind",
             meaning: "A session advances a model step by step, which requires time steps or load steps.",
-            advice: "Use an analysis of kind `dynamics` or `statics`, or the function for the analysis of this kind.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),
@@ -46,21 +45,18 @@ catalogued! {
     Failure StartError {
         OtherModel { what => what, found => found, wanted => wanted } => "state-of-other-model" {
             cause: "the state has {found} {what}, but the model has {wanted}",
-            remedy: "use a state of this model",
+            remedy: "obtain the state from the prepared model itself, and change it",
             meaning: "The numbers of nodes, coordinates or inputs of a given initial state differ from those of the model.",
-            advice: "Obtain the state from the prepared model itself, and change it.",
         }
         NotFinite {} => "state-not-finite" {
             cause: "the state contains a number that is not finite",
-            remedy: "check the assigned positions and velocities",
+            remedy: "check the expressions with which the state was changed",
             meaning: "A position, velocity or other number of a given initial state is infinite or not a number.",
-            advice: "Check the expressions with which the state was changed.",
         }
         Violated { joint => joint, equation => equation, violation => violation } => "state-violates-joint" {
             cause: "the positions of the state violate joint `{joint}` ({equation}) by {violation:.1e}",
-            remedy: "move all connected parts consistently, or change the positions in the model",
+            remedy: "move all connected parts consistently, or change the positions in the model and use `[assembly]`",
             meaning: "A given initial state has positions at which a joint is open. Positions of states are not corrected.",
-            advice: "Move all connected parts consistently, or change the positions in the model and use `[assembly]`.",
         }
     } wraps {
         Initial { 0 => error } => error.diagnostic(),
@@ -83,7 +79,6 @@ catalogued! {
             cause: "joint coordinate `{name}` cannot be {value}",
             remedy: "specify a finite number",
             meaning: "A value or rate of a joint coordinate is infinite or not a number.",
-            advice: "Use a finite number.",
         }
         Output { name => name, known => known } => "jacobian-output" {
             cause: "the model has no output `{name}`",
@@ -105,9 +100,8 @@ catalogued! {
     Failure RunError {
         Write { 0 => error } => "results-not-written" {
             cause: "the results cannot be written: {error}",
-            remedy: "check the folder and the free disk space",
+            remedy: "check the permissions of the folder and the free disk space",
             meaning: "A file of results could not be written during a run.",
-            advice: "Check the permissions of the folder and the free disk space.",
         }
     } wraps {
         Step { 0 => error } => error.diagnostic(),
@@ -125,9 +119,8 @@ catalogued! {
     Failure PathRunError {
         Write { 0 => error } => "path-not-written" {
             cause: "the results cannot be written: {error}",
-            remedy: "check the folder and the free disk space",
+            remedy: "check the permissions of the folder and the free disk space",
             meaning: "A file of results could not be written while an equilibrium path was followed.",
-            advice: "Check the permissions of the folder and the free disk space.",
         }
     } wraps {
         Path { 0 => error } => error.diagnostic(),
@@ -196,9 +189,8 @@ catalogued! {
         }
         Number { 0 => reason } => "gradient-number" {
             cause: "{reason}",
-            remedy: "specify the path of a number in the model file",
+            remedy: "specify the path of a number in the model file, such as `bodies.top.mass` or `parameters.length`",
             meaning: "Derivatives are computed with respect to numbers that are written in the model file and are not zero.",
-            advice: "Specify the path of such a number, for example `bodies.top.mass` or `parameters.length`.",
         }
         Time { time => time, start => start, end => end } => "gradient-time" {
             cause: "the output at t = {time} s was requested, but the analysis is from {start} to {end} s",
@@ -217,24 +209,21 @@ catalogued! {
         }
         KinkMoves { path => path, time => time } => "gradient-breakpoint" {
             cause: "a change of `{path}` moves a kink or jump of a load or drive, at t = {time} s, at which a step ends",
-            remedy: "smooth it over several steps, or compare runs",
+            remedy: "smooth the function over several steps, or compare runs",
             meaning: "Steps end at kinks and jumps of functions of time. Their derivative with respect to the time of the kink is not \
                       computed.",
-            advice: "Smooth the function over several steps, or compare runs.",
         }
         Feedback {} => "gradient-feedback" {
             cause: "outputs of models with feedback, states, delayed or sampled signals cannot be differentiated",
-            remedy: "remove loads and states whose signals depend on the motion",
+            remedy: "remove loads and states whose signals depend on the motion, or compare runs",
             meaning: "Derivatives along the motion are not implemented for feedback, states, events and sampled signals, except those of \
                       contacts.",
-            advice: "Remove loads and states whose signals depend on the motion, or compare runs.",
         }
         InParts { 0 => time } => "gradient-bisected-step" {
             cause: "the step to t = {time} s was bisected, and bisected steps cannot be differentiated: the whole step has no \
                     solution, or a load or drive has a kink or jump there",
-            remedy: "choose a smaller step, steps that end at the kinks, or smooth them",
+            remedy: "choose a smaller step, steps that end at kinks of loads and drives, or smooth these",
             meaning: "Derivatives are not computed along steps that were bisected.",
-            advice: "Choose a smaller step, steps that end at kinks of loads and drives, or smooth these.",
         }
         NotSmooth { path => path } => "gradient-not-smooth" {
             cause: "there is no derivative with respect to `{path}`: forces switch during the run, for example at a stop or a slack \
@@ -247,7 +236,6 @@ catalogued! {
             remedy: "choose another time, because the output may have jumps or kinks nearby; if that does not help, report an error \
                      of the program",
             meaning: "The finite-difference check refutes the derivatives of `lissom gradient`: the output has a jump or a kink nearby.",
-            advice: "Use another time; if that does not help, it is an error of the program: please report it.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),
@@ -270,9 +258,8 @@ catalogued! {
         }
         NoExponent { name => name, column => column } => "sweep-exponent" {
             cause: "`{name}` collects the damage equivalent range of `{column}`, whose output has no `woehler_exponent`",
-            remedy: "add it to the output",
+            remedy: "add `woehler_exponent` to the output",
             meaning: "Damage equivalent ranges require the exponent of the Wöhler curve.",
-            advice: "Add `woehler_exponent` to the output.",
         }
         Window { name => name, at => at, problem => problem, remedy => remedy } => "sweep-window" {
             cause: "the window of `{name}` ({at}) cannot be used: {problem}",
@@ -303,9 +290,8 @@ catalogued! {
         }
         Archive { 0 => error } => "unit-archive" {
             cause: "the archive cannot be created: {error}",
-            remedy: "check the free memory",
+            remedy: "check the free memory, and the size of the included files",
             meaning: "The archive of a co-simulation unit could not be packed.",
-            advice: "Check the free memory, and the size of the included files.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),
@@ -355,9 +341,8 @@ catalogued! {
         }
         Altered { 0 => frame } => "motion-altered" {
             cause: "frame {frame} of the motion is not as it was written: its checksum differs",
-            remedy: "run the model again, and check the disk",
+            remedy: "copy the file again, or run the model again, and check the disk",
             meaning: "Bytes of a recorded motion have changed since it was written, for example by an incomplete copy or a faulty disk.",
-            advice: "Copy the file again, or run the model again.",
         }
         NotFinite { 0 => frame } => "motion-not-finite" {
             cause: "frame {frame} of the motion contains a number that is not finite",
@@ -379,9 +364,8 @@ catalogued! {
         }
         TooLarge {} => "export-too-large" {
             cause: "the results exceed 4 GB, the limit of this format",
-            remedy: "request fewer frames or outputs",
+            remedy: "request fewer frames or outputs, or use another format",
             meaning: "The format of an export addresses at most 4 GB.",
-            advice: "Request fewer frames or outputs, or use another format.",
         }
     } wraps {
         File { 0 => error } => error.diagnostic(),
@@ -420,9 +404,8 @@ catalogued! {
         }
         Busy { 0 => path } => "sweep-busy" {
             cause: "another process is writing to `{path}`",
-            remedy: "wait for it, or choose another folder by `--out`",
+            remedy: "wait for the other process, or choose another folder by `--out`",
             meaning: "Two processes cannot write to the folder of one sweep.",
-            advice: "Wait for the other process, or choose another folder by `--out`.",
         }
         Damaged { path => path, line => line } => "sweep-damaged" {
             cause: "line {line} of `{path}` is not a member of this sweep",
@@ -436,9 +419,8 @@ catalogued! {
     Failure CheckpointError {
         Missing { 0 => path } => "checkpoint-missing" {
             cause: "there is no checkpoint in `{path}`: the run has ended, or was started without `--checkpoint-every`",
-            remedy: "run the model again",
+            remedy: "run the model again, with `--checkpoint-every`",
             meaning: "A run cannot be resumed without a checkpoint, which is removed at the end of a run.",
-            advice: "Run the model again, with `--checkpoint-every`.",
         }
         Unreadable { 0 => path } => "checkpoint-version" {
             cause: "`{path}` is not a checkpoint of this version of the program",
@@ -471,13 +453,11 @@ catalogued! {
             cause: "the step size {step} s does not divide the largest, {coarsest} s",
             remedy: "choose steps that are integer fractions of the largest, such as 1e-2,5e-3,2.5e-3",
             meaning: "Runs are compared at the ends of the largest steps, which must be ends of all steps.",
-            advice: "Choose steps that are integer fractions of the largest.",
         }
         CoarseReference { 0 => step } => "study-reference" {
             cause: "the step size of the reference, {step} s, is larger than a step of the study",
-            remedy: "choose a smaller one",
+            remedy: "choose a smaller step for the reference",
             meaning: "The errors of runs are differences from a reference, which must be more accurate.",
-            advice: "Choose a smaller step for the reference.",
         }
         NothingToCompare { 0 => name } => "study-output-zero" {
             cause: "the output `{name}` is zero at all times",
@@ -517,10 +497,9 @@ catalogued! {
         }
         Output { 0 => reason } => "output-cut" {
             cause: "the standard output is incomplete: {reason}",
-            remedy: "check the disk or device that receives it",
+            remedy: "free space on the disk or device that receives it, or redirect the output to another one",
             meaning: "Results that are printed could not be written, as where a file that receives them is on a full disk. Files of results \
                       are complete.",
-            advice: "Free space on the disk, or redirect the output to another one.",
         }
         Browser { 0 => path } => "no-browser" {
             cause: "no browser could be started",
@@ -533,15 +512,13 @@ catalogued! {
     Failure ReadError {
         NotBuilt {} => "read-by-id" {
             cause: "the model was not built in code, so its parts have no ids",
-            remedy: "use the names of its quantities",
+            remedy: "use the names of outputs and inputs",
             meaning: "A quantity was requested by an id, but ids exist only for models that are built in code.",
-            advice: "Use the names of outputs and inputs.",
         }
         NotRecorded { 0 => name } => "read-not-recorded" {
             cause: "`{name}` is not recorded",
-            remedy: "remove the override that removes this output",
+            remedy: "remove the override that removes this output, or do not request it",
             meaning: "An output was requested by its id, but an override has removed it from the model.",
-            advice: "Remove the override, or do not request the output.",
         }
     } wraps {
         Foreign { 0 => error } => error.diagnostic(),
@@ -556,9 +533,8 @@ catalogued! {
         }
         NoInput { 0 => name } => "state-without-input" {
             cause: "the state has no input `{name}`: it belongs to another model",
-            remedy: "use a state of this model",
+            remedy: "obtain the state from the prepared model itself",
             meaning: "An input of a given initial state was set, which the model of the state does not have.",
-            advice: "Obtain the state from the prepared model itself.",
         }
         Beam { 0 => name } => "state-of-beam" {
             cause: "`{name}` is a beam, which has many nodes",

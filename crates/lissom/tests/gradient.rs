@@ -330,7 +330,7 @@ fn numbers_that_move_kinks_are_refused() {
                     assert!(matches!(error, GradientError::KinkMoves { .. }), "{force}, {analysis}: {error}");
                     assert!(
                         matches!(error.origin(), Origin::Request)
-                            && error.to_string().contains("smooth it over"),
+                            && error.to_string().contains("smooth the function over"),
                         "{error}"
                     );
                 }

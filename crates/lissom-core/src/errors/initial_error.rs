@@ -32,7 +32,6 @@ diagnostics! {
             cause: ("statics and a start from equilibrium have no rates: {state} has no equation there"),
             remedy: "remove states, friction and rolling joints, or start a dynamic analysis without an equilibrium",
             meaning: "A state, friction or a rolling joint is governed by rates, which statics and a start from equilibrium do not have.",
-            advice: "Remove it, or simulate the motion from the given positions.",
         }
         /// A delayed signal where there is no time.
         DelayInStatics {
@@ -43,7 +42,6 @@ diagnostics! {
             cause: ("statics and a start from equilibrium have no past: the delayed {signal} has no value there"),
             remedy: "remove its `delay`, or start a dynamic analysis without an equilibrium",
             meaning: "A delayed signal is a value of the past, which statics, equilibrium paths and a start from equilibrium do not have.",
-            advice: "Remove its `delay`, or simulate the motion from the given positions.",
         }
         /// Something is free to rest anywhere.
         Free {
@@ -55,7 +53,6 @@ diagnostics! {
                     any position is an equilibrium"),
             remedy: "constrain it by a joint, a drive or a spring, or start from the given positions, without an equilibrium",
             meaning: "The equilibrium is not unique, because neither a spring nor weight determines the position of a part.",
-            advice: "Add a joint, a drive or a spring, or start from the given positions.",
         }
         /// Velocities that the constraints exclude altogether.
         VelocityImpossible {
@@ -66,9 +63,8 @@ diagnostics! {
         } => "velocity-impossible" {
             subject: part,
             cause: ("the initial velocity of {part}, {given}, is entirely prevented by the joints and drives"),
-            remedy: "remove it, or release the part",
+            remedy: "remove the velocity, or release the part",
             meaning: "The joints and drives prevent a given initial velocity entirely.",
-            advice: "Remove the velocity, or free the coordinate.",
         }
         /// Nothing can move, because constraints that are meant to repeat others are out of line.
         NoFreedom {
@@ -86,7 +82,6 @@ diagnostics! {
                 the direction free",
             meaning: "Nothing can move: joints that are meant to guide the same motion, such as two hinges of a door, are out of line by more \
                 than the geometric tolerance of 1e-5 rad.",
-            advice: "Give positions and axes with more digits, or replace one of the joints by a kind that leaves the direction free.",
         }
         /// Drives or joints ask for different velocities.
         RatesContradict {
@@ -112,7 +107,6 @@ diagnostics! {
                     (last relative change {change:.1e})"),
             remedy: "check `friction_coefficient` and the constraints of wheels on rails, and `friction` of rigid contacts",
             meaning: "The iteration for the normal forces of wheels on rails or of rigid contacts, on which creep and friction depend, does not converge.",
-            advice: "Check `friction_coefficient` and the constraints of the wheels, and `friction` of rigid contacts.",
         }
         /// Rigid contacts without consistent forces.
         ContactForces {
@@ -124,7 +118,6 @@ diagnostics! {
                     them"),
             remedy: "reduce `friction`, or give one of the contacts a `stiffness` instead of `rigid`",
             meaning: "The conditions of rigid contacts that touch at the same instant have no solution, or the iteration does not find it.",
-            advice: "Reduce `friction`, or give a contact a `stiffness` instead of `rigid`.",
         }
         /// A rigid contact with friction at which a normal force does not push the solids apart.
         ContactParadox {
@@ -148,7 +141,6 @@ diagnostics! {
             cause: ("at the start the parts of the rigid {contact} penetrate each other by {depth:.3e} m"),
             remedy: "move one of them apart",
             meaning: "The parts of a rigid contact penetrate each other at the start.",
-            advice: "Move one of the parts.",
         }
         /// A number is not finite.
         NotFinite {
@@ -158,9 +150,8 @@ diagnostics! {
             subject: unknown,
             cause: ("initial accelerations are not finite, first for the {unknown}: a force is unbounded at the start, or masses differ \
                     by too many orders of magnitude"),
-            remedy: "check the forces on it, and the units",
+            remedy: "check the forces on the unknown, and the units",
             meaning: "Initial accelerations are not finite.",
-            advice: "Look at the forces on the reported unknown, and at the units.",
         }
     }
     wraps {

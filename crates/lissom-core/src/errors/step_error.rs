@@ -75,7 +75,6 @@ diagnostics! {
             remedy: "avoid this position by a stop, other lengths or another start, or use a joint of another kind",
             meaning: "A joint is in a position where one of its equations vanishes, such as a `constant_velocity` joint that is bent by half a \
                 turn.",
-            advice: "Use a stop, other lengths, another start, or a joint of another kind.",
         }
         /// A closed loop is close to a singular position.
         LoopIsSingular {
@@ -92,7 +91,6 @@ diagnostics! {
                     the equations of {joints} are dependent, and it locks or can continue in more than one way"),
             remedy: "avoid this position by other lengths, another drive or another start",
             meaning: "A closed loop is close to a locking position, such as a slider crank at its dead centre.",
-            advice: "Use other lengths, another drive, or another start.",
         }
         /// Something changes its side within a step that has no solution however short.
         Switches {
@@ -109,8 +107,6 @@ diagnostics! {
             remedy: "smooth the jump (`tanh(v/0.01)` instead of `sign(v)`), use a suitable kind, such as friction, or set \
                 `relative_tolerance` instead of `step`, which ends steps where forces switch",
             meaning: "A force changes its sign at a threshold and drives the motion back to it from both sides.",
-            advice: "Give the jump a width, for example `tanh(v/0.01)` instead of `sign(v)`, use a kind such as friction, or set \
-                `relative_tolerance`.",
         }
         /// The estimated error stays above the tolerance however short the step.
         TooInaccurate {
@@ -177,7 +173,6 @@ diagnostics! {
             cause: ("a session cannot be stepped to the time {target} s"),
             remedy: "specify a finite time",
             meaning: "A session was asked to go to a time that is not finite.",
-            advice: "Use a finite time.",
         }
         /// A function of time is not finite.
         FunctionNotFinite {
@@ -196,7 +191,6 @@ diagnostics! {
                     domain of its functions"),
             remedy: "restrict it, for example by `max(…, 0)` under a root or `clamp`, or end the run before",
             meaning: "A function of time is not finite: a root of a negative number, a division by zero.",
-            advice: "Restrict the argument, for example by `max(…, 0)` or `clamp`, or end the run before.",
         }
         /// Constraints are not held, though the equations were solved.
         Contradiction {
@@ -213,7 +207,6 @@ diagnostics! {
             remedy: "remove one of them, change the prescribed motion, or give positions and axes with more digits",
             meaning: "Constraints cannot be satisfied together: two drives of one coordinate, a drive beyond the reach of its links, or \
                 redundant joints that are out of line by more than the geometric tolerance.",
-            advice: "Remove one of the constraints, change the prescribed motion, or give positions and axes with more digits.",
         }
         /// A node turns further than a step resolves.
         TurnsTooFar {
@@ -230,7 +223,6 @@ diagnostics! {
                     revolution per step are not resolved"),
             remedy: "use a smaller step, or set `relative_tolerance`",
             meaning: "A node rotates by more than a quarter of a turn in a step, which is too long for the angular velocity.",
-            advice: "Use a smaller step, or `relative_tolerance`.",
         }
         /// A velocity is beyond that of any machine.
         Diverges {
@@ -249,7 +241,6 @@ diagnostics! {
                 which joint), masses and units; an event with `stop` ends the run before",
             meaning: "A part moves faster than light or rotates by more than a million radians per second: a feedback loop is unstable, or \
                 an input, a force or a mass has a wrong magnitude.",
-            advice: "Check sign and size of the gains, the period of the samples, which input belongs to which joint, masses and units.",
         }
         /// Nodes of an element are turned against each other by nearly half a turn.
         ElementTurns {
@@ -300,7 +291,6 @@ diagnostics! {
                     {length} m"),
             remedy: "make the beam longer, stop it with a spring of kind `axial_stop`, or end the run before with an event",
             meaning: "A slider has left its beam.",
-            advice: "Use a longer beam, a stop, or an event before the end.",
         }
         /// The kinetic energy of a superelement is negative in some motion.
         NegativeKineticEnergy {

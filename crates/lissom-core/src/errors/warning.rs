@@ -129,7 +129,6 @@ diagnostics! {
                     1/s"),
             remedy: "specify its initial velocity, or start the drive from rest",
             meaning: "Drives or joints set a beam into motion instantaneously, which bends it.",
-            advice: "Give the beam its initial velocity, or start the drive from rest.",
         }
         /// A contact stops an approach faster than steps resolve.
         ContactTooShort {
@@ -184,7 +183,6 @@ diagnostics! {
             meaning: "Fixed steps satisfy the constraints of joints and drives, but not their rates: the mean error of the constraint rates \
                 over the sampled steps exceeds 2 % of the speed. Signals and events read velocities with the same error, accelerations and forces \
                 with a larger one. Recorded outputs are recovered from the positions and do not have it.",
-            advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
         /// A beam is strained more than a beam can be.
         LargeStrain {
@@ -264,7 +262,6 @@ diagnostics! {
             remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "Fixed steps are too long for the motion: their estimated errors add up to more than 0.1 % of the amplitude of motion of \
                 the model.",
-            advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
         /// Steps that solve for all touches at once damp the motion between touches.
         SchemeDamps {
@@ -336,7 +333,6 @@ diagnostics! {
                 the direction free",
             meaning: "Joints that are meant to guide the same motion are out of line by more than the geometric tolerance of 1e-5 rad, and lock \
                 it.",
-            advice: "Give positions and axes with more digits, or replace one of the joints by a kind that leaves the direction free.",
         }
         /// The geometry of redundant constraints does not fit the others.
         RedundantMisfit {
@@ -727,7 +723,6 @@ diagnostics! {
             remedy: "reduce the part with more modes, start and stop its motion smoothly, or model it by beams",
             meaning: "A superelement is excited faster than its modes can follow, for example by a motion that starts or stops suddenly: its \
                 interface forces have an estimated error of 5 % of its inertial forces or more.",
-            advice: "Reduce the part with more modes, start and stop the motion smoothly, or model the part by beams.",
         }
         /// An output that accumulates along the motion could not be continued.
         AccumulationLost {

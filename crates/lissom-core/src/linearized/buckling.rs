@@ -69,14 +69,12 @@ diagnostics! {
             cause: ("the model is not stable without loads ({directions} unstable or free directions): linear buckling is undefined"),
             remedy: "constrain the free parts, or follow the path by an analysis of kind `path`",
             meaning: "Linear buckling requires a model that is stable without its loads.",
-            advice: "Hold what is free, or follow the path by an analysis of kind `path`.",
         }
         /// The loads have no potential.
         NotSymmetric {} => "buckling-not-symmetric" {
             cause: ("the stiffness under the loads is not symmetric, for example because of follower loads"),
             remedy: "follow the path by an analysis of kind `path` instead",
             meaning: "The loads have no potential, so that their stiffness is not symmetric. Linear buckling does not apply.",
-            advice: "Follow the path by an analysis of kind `path`.",
         }
     }
     wraps {

@@ -112,7 +112,6 @@ diagnostics! {
             cause: ("the model has no mass, and therefore no natural modes"),
             remedy: "specify masses of bodies or sections",
             meaning: "A model without mass has no natural modes.",
-            advice: "Give bodies or sections a mass.",
         }
         /// No mode at all is requested.
         NothingAsked {} => "no-mode-requested" {

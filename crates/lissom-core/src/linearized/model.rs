@@ -41,7 +41,6 @@ diagnostics! {
             cause: ("there is no linear model of a system with sampled signals, which change at instants only"),
             remedy: "remove their `sample` for this analysis, as if they were sampled continuously",
             meaning: "Sampled signals change at instants only and have no linear model.",
-            advice: "Remove their `sample` for this analysis.",
         }
         /// Signals are delayed.
         Delayed {
@@ -51,9 +50,8 @@ diagnostics! {
             subject: signal,
             cause: ("the {signal} is delayed, and a system with delays has infinitely many eigenvalues, which the linear model of this \
                     analysis does not have"),
-            remedy: "remove its `delay` for this analysis, replace it by a lag with `[states]`, or simulate the motion",
+            remedy: "remove its `delay` for this analysis, approximate it by states, such as `x' = (u - x)/delay`, or simulate the motion",
             meaning: "A system with delayed signals has no linear model with finitely many eigenvalues.",
-            advice: "Remove `delay` for this analysis, or approximate it by states, such as `x' = (u - x)/delay`.",
         }
         /// Constraints between velocities.
         Rolls {
@@ -65,7 +63,6 @@ diagnostics! {
                     only"),
             remedy: "use another joint for the wheel, or simulate the motion",
             meaning: "The analysis does not support rolling, which is a constraint between velocities.",
-            advice: "Hold the wheel with another joint, or simulate the motion.",
         }
         /// A latch, which is a constraint between velocities.
         Latched {
@@ -85,9 +82,8 @@ diagnostics! {
         } => "linear-rigid-contact" {
             subject: Subject::new("contact", contact),
             cause: ("the contact `{contact}` is rigid: it opens and closes, and has no linear model"),
-            remedy: "give it a `stiffness` instead of `rigid`",
+            remedy: "give the contact a `stiffness` instead of `rigid`",
             meaning: "The analysis does not support rigid contacts, which open and close.",
-            advice: "Give the contact a `stiffness` instead of `rigid`.",
         }
         /// A pivot vanished or a number is not finite.
         Factor {
@@ -103,7 +99,6 @@ diagnostics! {
             cause: ("the linear model at t = {time} s: elimination stops at the {unknown} (pivot {pivot:.1e})"),
             remedy: "add mass, stiffness or a joint",
             meaning: "A coordinate of the linear model has neither mass nor stiffness, or a number is not finite.",
-            advice: "Give the reported unknown mass, stiffness or a joint.",
         }
     }
     wraps {

@@ -44,15 +44,13 @@ diagnostics! {
             cause: ("the assembly with fixed interfaces is not conservative, but a superelement is linear elastic"),
             remedy: "remove follower loads and signals, and reduce it at rest",
             meaning: "With its interfaces held the assembly is not conservative, but a superelement is linear elastic.",
-            advice: "Omit loads that follow and signals, and reduce the assembly at rest.",
         }
         /// With the interfaces held there is an unstable mode.
         Unstable {} => "reduction-unstable" {
             cause: ("the assembly with fixed interfaces is unstable: the state is beyond buckling, or parts are stabilised by their \
                     stress only"),
-            remedy: "reduce it under smaller loads, or constrain these parts",
+            remedy: "reduce it under smaller loads, or constrain the parts that are stabilised by their stress only",
             meaning: "With its interfaces held the assembly is unstable.",
-            advice: "Reduce it under smaller loads, or constrain the parts that are stabilised by their stress only.",
         }
         /// Forces act between the interfaces.
         Unbalanced {
@@ -63,7 +61,6 @@ diagnostics! {
                     of its length"),
             remedy: "declare the loaded node as an interface, or remove the load",
             meaning: "Forces that act on the assembly between its interfaces are not balanced within it.",
-            advice: "Make what they act on an interface, or remove the load.",
         }
         /// Something holds the assembly, or pulls at it, in directions fixed in space.
         Held {
@@ -78,7 +75,6 @@ diagnostics! {
             cause: ("a rigid motion of the assembly is not free of forces: the {unknown} has {force:.1e} of terms of {terms:.1e}"),
             remedy: "remove connections to the ground, and loads with directions fixed in space",
             meaning: "Forces act on the assembly in a rigid motion.",
-            advice: "Omit what connects it to the ground, and loads with directions fixed in space.",
         }
     }
     wraps {

@@ -59,16 +59,14 @@ diagnostics! {
         /// Some degrees of freedom have no mass.
         Massless {} => "state-space-massless" {
             cause: ("degrees of freedom without mass remain, whose velocities are no states"),
-            remedy: "specify their mass",
+            remedy: "specify the mass of all degrees of freedom",
             meaning: "The velocities of degrees of freedom without mass are no states.",
-            advice: "Give all degrees of freedom a mass.",
         }
         /// Forces depend on normal forces.
         NormalForces {} => "state-space-normal-forces" {
             cause: ("creep forces of wheels on rails depend on the normal forces, which are not among the states of first-order equations"),
             remedy: "use `lissom modes` or `lissom response`, which support them",
             meaning: "Creep forces depend on normal forces, which are not among the states of first-order equations.",
-            advice: "Use `lissom modes` or `lissom response`.",
         }
         /// Constraints between velocities.
         VelocityConstraint {
@@ -79,7 +77,6 @@ diagnostics! {
             cause: ("{constraint}, a constraint between velocities, is not part of first-order equations in independent coordinates"),
             remedy: "use `lissom modes` or `lissom response`, which support it",
             meaning: "First-order equations in independent coordinates do not contain constraints between velocities.",
-            advice: "Use `lissom modes` or `lissom response`.",
         }
         /// A reaction that is recorded is not unique.
         Redundant {} => "state-space-redundant" {

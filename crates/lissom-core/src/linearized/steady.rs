@@ -58,7 +58,6 @@ diagnostics! {
             cause: ("nothing rotates at the start"),
             remedy: "specify the angular velocity of parts, or use the static equilibrium",
             meaning: "A steady rotation was requested, but all parts are at rest at the start.",
-            advice: "Give parts an angular velocity, or use the static equilibrium.",
         }
         /// No positions were found.
         NotConverged {
@@ -69,7 +68,6 @@ diagnostics! {
                     length"),
             remedy: "check the velocities at the start, which must be those of a steady rotation, and the speed, at which there may be none",
             meaning: "No positions were found at which the model rotates steadily.",
-            advice: "Check the initial velocities. At the given speed there may be no steady rotation.",
         }
     }
     wraps {

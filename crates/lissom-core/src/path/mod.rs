@@ -87,7 +87,6 @@ diagnostics! {
             cause: ("no load and no gravity acts at the time `start`, so a load factor has no effect"),
             remedy: "specify loads that are not zero there",
             meaning: "No load acts at the time `start`, so a load factor has no effect.",
-            advice: "Give loads a magnitude at that time.",
         }
         /// The parameter has no effect.
         NoEffect {
@@ -113,7 +112,6 @@ diagnostics! {
             cause: ("`{name}` cannot be {value}, where the path starts: {problem}"),
             remedy: "start the path at another value",
             meaning: "The model is not valid at the value at which the path begins.",
-            advice: "Begin the path at another value.",
         }
         /// The parameter has no valid values beyond the last equilibrium.
         Beyond {
@@ -163,7 +161,6 @@ diagnostics! {
                 relaxation, or use \
                 a smaller first `step`",
             meaning: "Small loads meet almost no resistance, as in a cable without tension.",
-            advice: "Apply tension, follow a path along a number of the loaded model (`vary`), or use a smaller first `step`.",
         }
         /// The path has fewer bifurcations than the number of the requested one.
         NoBifurcation {

@@ -44,7 +44,6 @@ diagnostics! {
             cause: ("input `{name}` cannot be {value}"),
             remedy: "specify a finite number",
             meaning: "An input was set to a value that is not finite.",
-            advice: "Use a finite number.",
         }
     }
     wraps {

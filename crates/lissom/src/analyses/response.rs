@@ -471,9 +471,8 @@ catalogued! {
     Failure FrequencyError {
         Range { from => from, to => to } => "response-range" {
             cause: "the frequencies are from {from} to {to} Hz",
-            remedy: "both must be greater than zero, and the first smaller than the last",
+            remedy: "specify two frequencies greater than zero, the smaller one first",
             meaning: "The range of a frequency response is empty, or not positive.",
-            advice: "Specify two frequencies greater than zero, the smaller one first.",
         }
         RollsOn {} => "response-rolling" {
             cause: "wheels are rolling in this state: their contacts move relative to the axes of the parts, in which responses are \

@@ -560,8 +560,8 @@ fn questions_without_sense_are_refused() {
     for (error, words) in [
         (ask(&["pusch"], &["place"], 0.1, 1.0), "`inputs.command`, `loads.push`, `loads.drive`"),
         (ask(&["push"], &["plaice"], 0.1, 1.0), "`place.x`"),
-        (ask(&["push"], &["place"], 0.0, 1.0), "must be greater than zero"),
-        (ask(&["push"], &["place"], 2.0, 1.0), "the first smaller than the last"),
+        (ask(&["push"], &["place"], 0.0, 1.0), "two frequencies greater than zero"),
+        (ask(&["push"], &["place"], 2.0, 1.0), "the smaller one first"),
     ] {
         assert!(matches!(error.origin(), Origin::Request) && error.to_string().contains(words), "{error}");
     }

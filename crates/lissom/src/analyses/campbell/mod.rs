@@ -419,9 +419,8 @@ catalogued! {
     Failure CampbellError {
         Range { path => path, from => from, to => to } => "campbell-range" {
             cause: "`{path}` varies from {from} to {to}",
-            remedy: "both must be finite, and different",
+            remedy: "specify two different finite numbers",
             meaning: "The range of the varied number of a Campbell diagram is empty or not finite.",
-            advice: "Specify two different finite numbers.",
         }
         Unlike { 0 => path } => "campbell-unknowns" {
             cause: "a change of `{path}` changes the unknowns of the model, so modes cannot be tracked",

@@ -406,14 +406,12 @@ catalogued! {
                     their squares",
             remedy: "remove gravity across the axis, loads fixed in space and other motions, which are not steady in rotating axes",
             meaning: "Linearisation about `rotation` requires velocities that are constant in rotating axes.",
-            advice: "Remove gravity across the axis, loads fixed in space and motions other than the rotation.",
         }
         SteadyHereAlone { 0 => change } => "rotation-steady-at-azimuth" {
             cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, such as \
                     under gravity across the axis or other loads fixed in space",
             remedy: "remove these loads (`--unset gravity`), or let gravity act along the axis",
             meaning: "The velocities are steady at the azimuth of the start, but not at another one: a load is fixed in space.",
-            advice: "Remove loads that are fixed in space, or let gravity act along the axis.",
         }
         Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
             cause: "mode {number} ({frequency} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
@@ -428,7 +426,6 @@ catalogued! {
             remedy: "request another `count`; if very light parts make some frequencies thousands of times higher than others, \
                      request fewer modes, or those near a frequency by `shift`",
             meaning: "The search for modes found fewer modes than the factorisation counts in the interval.",
-            advice: "Request another `count`, or modes near a frequency by `shift`.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),
