@@ -277,7 +277,8 @@ fn quoted_paths_are_found() {
     assert_eq!(quoted_paths(text, &folders), expected);
 }
 
-/// Every file of tests is a module of the program of its crate, or a program of its own: nobody would miss a file that is not built.
+/// Every file of tests is a module of the program of its crate or of a source, or a program of its own: nobody would miss a file that is
+/// not built.
 #[test]
 fn files_of_tests_are_built() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -299,6 +300,14 @@ fn files_of_tests_are_built() {
                 (stem(&file), parent)
             };
             if own == "main" || parent == tests && manifest.contains(&format!("[[test]]\nname = \"{own}\"")) {
+                continue;
+            }
+            // A module of a source names it.
+            if let Ok(unit) = file.strip_prefix(tests.join("unit")) {
+                let source = fs::read_to_string(folder.join("src").join(unit)).unwrap_or_default();
+                if !source.contains(&format!("tests/unit/{}\"]\nmod tests;", unit.display())) {
+                    missing.push(file.display().to_string());
+                }
                 continue;
             }
             let declares = [above.join("main.rs"), above.join("mod.rs"), above.with_extension("rs")]

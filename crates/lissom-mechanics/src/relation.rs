@@ -18,6 +18,11 @@ pub trait Relation: Send + Sync + Debug {
     /// Value, and first and second derivative along a direction.
     fn jet(&self, at: RelationPoint<'_>, direction: RelationPoint<'_>) -> [f64; 3];
 
+    /// Whether it depends explicitly on time. Default: it may.
+    fn depends_on_time(&self) -> bool {
+        true
+    }
+
     /// Values of the first coordinate for which it was specified, if what is beyond was not chosen. Default: all.
     fn domain(&self) -> Option<Interval> {
         None

@@ -37,7 +37,7 @@ pub(super) struct Factored {
     pub(super) growth: f64,
     /// Largest error of a coordinate's correction over the largest such correction, for a random solution.
     pub(super) coordinate_error: f64,
-    /// The same for multipliers.
+    /// Largest error of a multiplier's correction over the largest such correction, for a random solution.
     pub(super) multiplier_error: f64,
     /// Componentwise backward error: the smallest relative change of all entries of matrix and right-hand side for which the computed
     /// solution of that problem is exact [Oettli and Prager 1964]. Scaling of rows and columns does not change it.

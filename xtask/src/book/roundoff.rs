@@ -23,7 +23,7 @@ struct Measured {
     /// Difference after [`STEPS`] steps from the same time reached in eight times as many, relative to the magnitude
     /// of the output there [-].
     error: f64,
-    /// The same for the time reached in four times as many: the accuracy of the reference [-].
+    /// Error in four times as many steps: the accuracy of the reference [-].
     doubt: f64,
     /// Largest second difference over the last [`NOISY_STEPS`] steps, relative to the largest magnitude of the output
     /// there [-]. It decreases as h² if the output is smooth; the remainder is round-off.

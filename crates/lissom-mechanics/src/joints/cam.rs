@@ -47,6 +47,10 @@ struct Cam {
 }
 
 impl Relation for Cam {
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
     fn jet(&self, (_, q): RelationPoint<'_>, (_, v): RelationPoint<'_>) -> [f64; 3] {
         let slope = self.profile.first_derivative(q[0]);
         [

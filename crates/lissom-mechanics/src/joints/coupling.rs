@@ -180,7 +180,7 @@ impl Constraint for Coupling {
     }
 
     fn may_depend_on_time(&self) -> bool {
-        true
+        self.relation.depends_on_time()
     }
 
     fn depends_on_time(&self, at: &Kinematics) -> bool {

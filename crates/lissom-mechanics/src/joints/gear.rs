@@ -46,6 +46,10 @@ struct Gear {
 }
 
 impl Relation for Gear {
+    fn depends_on_time(&self) -> bool {
+        false
+    }
+
     fn jet(&self, (_, q): RelationPoint<'_>, (_, v): RelationPoint<'_>) -> [f64; 3] {
         [q[1] - self.ratio * q[0] - self.offset, v[1] - self.ratio * v[0], 0.0]
     }

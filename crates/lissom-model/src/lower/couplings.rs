@@ -30,6 +30,10 @@ struct Equation {
 }
 
 impl Relation for Equation {
+    fn depends_on_time(&self) -> bool {
+        self.formula.depends_on_time()
+    }
+
     fn jet(&self, (time, values): RelationPoint<'_>, (of_time, direction): RelationPoint<'_>) -> [f64; 3] {
         self.formula.jet((time, of_time), |argument| {
             let coordinate = self.arguments[argument];
