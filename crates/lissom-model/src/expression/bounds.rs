@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 use lissom_mechanics::law::{EVERYTHING, Interval, hull, inverse, product, square, sum};
 
 use super::jet::Function;
+use super::noise;
 use super::number::Number;
 
 const TRUTH: Interval = [0.0, 1.0];
@@ -134,6 +135,11 @@ fn of_two(function: Function, u: Interval, v: Interval) -> Interval {
             hull(&u.map(|value| value.rem_euclid(v[0])))
         }
         Function::Mod => [0.0, v[0].abs().max(v[1].abs())],
+        Function::Random | Function::Normal if u[0] == u[1] && noise::is_one(v) => {
+            [u[0].of_two(function, v[0]); 2]
+        }
+        Function::Random => TRUTH,
+        Function::Normal => [-noise::MAX_NORMAL, noise::MAX_NORMAL],
         _ => EVERYTHING,
     }
 }

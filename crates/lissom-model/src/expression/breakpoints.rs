@@ -4,6 +4,7 @@ use lissom_mechanics::kinematics::Switch;
 use lissom_mechanics::kinematics::switch::level_of_side;
 
 use super::jet::Function;
+use super::noise;
 use super::number::Point;
 use super::program::{STACK, Step};
 
@@ -52,6 +53,7 @@ fn level_argument(function: Function, [one, other]: [f64; 2]) -> Option<f64> {
         Function::Floor | Function::Ceil => Some(one),
         Function::Round => Some(one + 0.5),
         Function::Mod => Some(one / other.abs()),
+        Function::Random | Function::Normal => Some(other + 0.5),
         _ => None,
     }
 }
@@ -105,6 +107,8 @@ pub(super) fn continued<N: Point>(
         Function::Floor | Function::Round => Some(N::constant(level)),
         Function::Ceil => Some(N::constant(level + 1.0)),
         Function::Mod => Some(one.plus(other.scaled(-level * other.value().signum()))),
+        Function::Random => Some(N::constant(noise::uniform(one.value(), level))),
+        Function::Normal => Some(N::constant(noise::normal(one.value(), level))),
         Function::Abs => Some(one.scaled(sides[0])),
         Function::Sign => Some(N::constant(sides[0])),
         Function::Step | Function::Greater | Function::GreaterOrEqual => Some(truth(is_above)),

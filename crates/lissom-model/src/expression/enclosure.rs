@@ -3,6 +3,7 @@
 use lissom_mechanics::law::{EVERYTHING, Enclosure, Interval};
 
 use super::jet::Function;
+use super::noise;
 use super::number::Number;
 
 /// What has a kink or a jump somewhere in its interval.
@@ -115,6 +116,10 @@ impl Number for Enclosure {
             Function::Mod if other.is_constant() && v[0] == v[1] => {
                 let [low, high] = u.map(|value| (value / v[0]).floor());
                 if low == high { Self { value, ..self } } else { unknown(value) }
+            }
+            Function::Random | Function::Normal => {
+                let is_one = u[0] == u[1] && noise::is_one(v);
+                if is_one { Self::of_constant(value) } else { unknown(value) }
             }
             Function::Less | Function::LessOrEqual | Function::Greater | Function::GreaterOrEqual
                 if value[0] == value[1] =>

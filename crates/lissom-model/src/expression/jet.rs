@@ -81,6 +81,8 @@ pub enum Function {
     Atan2,
     Hypot,
     Mod,
+    Random,
+    Normal,
     Clamp,
     If,
     Less,
@@ -120,6 +122,8 @@ pub(crate) const NAMES: &[(&str, Function)] = &[
     ("atan2", Function::Atan2),
     ("hypot", Function::Hypot),
     ("mod", Function::Mod),
+    ("random", Function::Random),
+    ("normal", Function::Normal),
     ("clamp", Function::Clamp),
     ("if", Function::If),
 ];
@@ -138,6 +142,8 @@ impl Function {
             | Self::Atan2
             | Self::Hypot
             | Self::Mod
+            | Self::Random
+            | Self::Normal
             | Self::Less
             | Self::LessOrEqual
             | Self::Greater

@@ -1,6 +1,7 @@
 //! What a compiled expression computes with: numbers, jets, intervals, or enclosures of a function over an interval.
 
 use super::jet::Function;
+use super::noise;
 
 /// Operations of an expression.
 pub(super) trait Number: Copy {
@@ -123,6 +124,8 @@ impl Number for f64 {
             }
             Function::Atan2 => self.atan2(other),
             Function::Mod => self.rem_euclid(other),
+            Function::Random => noise::uniform(self, noise::counter(other)),
+            Function::Normal => noise::normal(self, noise::counter(other)),
             Function::Less => truth(self < other),
             Function::LessOrEqual => truth(self <= other),
             Function::Greater => truth(self > other),

@@ -29,8 +29,8 @@ pub(crate) struct Kink {
 /// The first kink or jump that is found of steps with `count` arguments.
 pub(super) fn first_kink(steps: &[Step], count: usize) -> Option<Kink> {
     let is_stepped = |step: &Step| {
-        use Function::{Ceil, Floor, Mod, Round};
-        matches!(step, Step::Call(Floor | Ceil | Round) | Step::Call2(Mod))
+        use Function::{Ceil, Floor, Mod, Normal, Random, Round};
+        matches!(step, Step::Call(Floor | Ceil | Round) | Step::Call2(Mod | Random | Normal))
     };
     if steps.iter().any(is_stepped) {
         return Some(Kink { variable: f64::NAN, arguments: vec![f64::NAN; count] });

@@ -21,7 +21,8 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
 - **Expressions** consist of numbers, `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
   `a < b`, `<=`, `>`, `>=` are 1 if true and 0 if false; `if(condition, a, b)` is `b` if the condition is 0.
   `step(x)` is 0 for x < 0 and 1 otherwise; `smoothstep(x)` increases from 0 at 0 to 1 at 1 with continuous second
-  derivative. Functions of time contain `t` [s]; curves and twists contain `s`, from 0 to 1 along the beam.
+  derivative. `random(seed, x)` is uniform between 0 and 1, and `normal(seed, x)` normal with variance 1: another number for each
+  whole number nearest to `x`. Functions of time contain `t` [s]; curves and twists contain `s`, from 0 to 1 along the beam.
 - **Functions of time** are a number, an expression of `t`, or
   `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`, or `\"monotone\"`, which does not
   overshoot); outside the table the value is that of the nearest end. Instead of `table`, `file = \"motor.csv\"` and
