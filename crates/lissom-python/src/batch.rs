@@ -346,8 +346,8 @@ impl Batch {
         let chosen = self.chosen(members)?;
         let is_model = q.is_none() && v.is_none();
         let mut joints = self.lock_joints(py);
-        let values = joints.rows(&self.prepared, q, Some(chosen.len()))?;
-        let rates = joints.rows(&self.prepared, v, Some(chosen.len()))?;
+        let values = joints.rows(&self.prepared, (q, false), Some(chosen.len()))?;
+        let rates = joints.rows(&self.prepared, (v, true), Some(chosen.len()))?;
         let coordinates = if is_model { None } else { joints.with_rates(&self.prepared, &rates)? };
         drop(joints);
         let mut rows = vec![None; self.count];

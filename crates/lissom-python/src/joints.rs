@@ -95,11 +95,11 @@ impl Joints {
         Ok(&self.motion.insert((of.revision(), motion)).1)
     }
 
-    /// Values of so many simulations; arrays of fewer dimensions are the same for all.
+    /// Values of so many simulations, or rates; arrays of fewer dimensions are the same for all.
     pub(crate) fn rows(
         &mut self,
         prepared: &Prepared,
-        given: Option<JointValues<'_>>,
+        (given, is_rate): (Option<JointValues<'_>>, bool),
         count: Option<usize>,
     ) -> PyResult<Rows> {
         let fitting = |given: PyArrayLikeDyn<'_, f64, AllowTypeChange>, columns: Option<usize>| {
@@ -117,14 +117,24 @@ impl Joints {
         match given {
             None => Ok(Rows::default()),
             Some(JointValues::Ordered(values)) => {
-                let names = self.chosen(prepared)?.names().to_vec();
+                let chosen = self.chosen(prepared)?;
+                let names = if is_rate { chosen.rate_names() } else { chosen.value_names() };
                 let values = fitting(values, Some(names.len()))?;
                 Ok(Rows { names, values })
             }
             Some(JointValues::Named(given)) => {
-                let names: Vec<String> = given.keys().cloned().collect();
-                let columns =
-                    given.into_values().map(|values| fitting(values, None)).collect::<PyResult<Vec<_>>>()?;
+                // Without a choice there is no base.
+                let chosen = self.chosen(prepared).ok();
+                let (mut names, mut columns) = (Vec::new(), Vec::new());
+                for (name, values) in given {
+                    let own =
+                        chosen.as_ref().map_or_else(|| vec![name.clone()], |own| own.components(&name, is_rate));
+                    let width = own.len();
+                    let values = fitting(values, (width > 1).then_some(width))?;
+                    columns.extend((0..width).map(|k| values.iter().skip(k).step_by(width).copied().collect()));
+                    names.extend(own);
+                }
+                let columns: Vec<Vec<f64>> = columns;
                 let row = |row: usize| columns.iter().map(move |column| column[row]);
                 Ok(Rows { names, values: (0..count.unwrap_or(1)).flat_map(row).collect() })
             }

@@ -260,7 +260,8 @@ impl Simulation {
     /// Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as
     /// many as degrees of freedom of the parts that joints connect with them; other parts, such as free bodies, move apart. By
     /// default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all joints with one
-    /// coordinate, in the order of the joints in the model file.
+    /// coordinate, in the order of the joints in the model file. A robot that floats has one more name at the beginning: that of
+    /// its base, a free body, which stands for seven values and six rates.
     ///
     /// Raises `ValueError` if a name is unknown, or they are not as many as those degrees of freedom.
     #[pyo3(signature = (names = None))]
@@ -268,7 +269,8 @@ impl Simulation {
         py.detach(|| Ok(self.lock_joints().choose(&self.prepared, names.as_deref())?.names().to_vec()))
     }
 
-    /// Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`.
+    /// Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`. A base has its
+    /// position x, y, z and quaternion q0 … q3 in global axes, and its velocity and angular velocity in its own axes.
     fn joint_state<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
         let state = py.detach(|| {
             let inner = self.lock();
@@ -280,7 +282,8 @@ impl Simulation {
     }
 
     /// Mass matrix H of `H q̈ + h = τ`, the equations of motion in the joint coordinates q, in the order of `coordinates()`; τ are the
-    /// forces of `joint_torque` and `joint_force` loads on them. An array of shape (number of coordinates, number of coordinates).
+    /// forces of `joint_torque` and `joint_force` loads on them. An array of shape (number of rates, number of rates): a base has the
+    /// first six, its velocity and angular velocity in its own axes.
     ///
     /// Raises `ValueError` if there are no joint coordinates, `SolutionError` if they depend on each other in this position.
     fn mass_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -312,7 +315,7 @@ impl Simulation {
             is_fitting.then(|| motion.forces(&accelerations)).ok_or((found, wanted))
         })?;
         let forces = forces.map_err(|(found, wanted)| {
-            PyValueError::new_err(format!("there are {found} accelerations, but {wanted} joint coordinates"))
+            PyValueError::new_err(format!("there are {found} accelerations, but {wanted} rates of joint coordinates"))
         })?;
         Ok(PyArray1::from_vec(py, forces))
     }
@@ -333,7 +336,8 @@ impl Simulation {
     }
 
     /// Starts again at the start time, with these values `q` of joint coordinates [rad, m] and rates `v` [rad/s, m/s]: dictionaries, or
-    /// arrays in the order of `coordinates()`. Parts are moved such that all joints close. Coordinates that are not named stay where
+    /// arrays in the order of `coordinates()`; a base is given by a list of seven values or six rates. Parts are moved such that all
+    /// joints close, and a base that is not named stays where it was. Coordinates that are not named stay where
     /// they were at the model's start if they can, and rates that are not named are zero. Inputs are those of the model. Without
     /// arguments this is the start of the model, with its velocities.
     ///
@@ -344,7 +348,7 @@ impl Simulation {
         let is_model = q.is_none() && v.is_none();
         let (values, rates) = {
             let mut joints = self.joints.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner);
-            (joints.rows(&self.prepared, q, None)?.row(0), joints.rows(&self.prepared, v, None)?)
+            (joints.rows(&self.prepared, (q, false), None)?.row(0), joints.rows(&self.prepared, (v, true), None)?)
         };
         let news = py.detach(|| {
             let beginning = if is_model {

@@ -194,3 +194,68 @@ def test_equations_of_motion_in_joint_coordinates_are_those_of_mujoco() -> None:
         mujoco.mj_mulM(model, data, own, direction)
     assert np.allclose(sim.mass_matrix(), columns, rtol=0, atol=1e-12)
     assert np.allclose(sim.bias(), data.qfrc_bias, rtol=0, atol=1e-10)
+
+
+#: A body that floats, with a leg of two hinges and a slide.
+FLOATING = """
+<mujoco model="hopper">
+  <compiler angle="radian"/>
+  <option gravity="0 0 -9.81"/>
+  <default><geom density="700" contype="0" conaffinity="0"/></default>
+  <worldbody>
+    <body name="trunk" pos="0.1 -0.2 1">
+      <freejoint/>
+      <geom type="box" size="0.2 0.1 0.06" pos="0.03 0.01 -0.02"/>
+      <body name="thigh" pos="0.15 0.05 -0.05">
+        <joint name="hip" axis="0 1 0.2"/>
+        <geom type="capsule" fromto="0 0 0 0.02 0 -0.3" size="0.03"/>
+        <body name="shank" pos="0.02 0 -0.3">
+          <joint name="knee" axis="0 1 0"/>
+          <geom type="capsule" fromto="0 0 0 0 0.03 -0.25" size="0.02"/>
+          <body name="foot" pos="0 0.03 -0.25">
+            <joint name="reach" type="slide" axis="0.1 0 1"/>
+            <geom type="sphere" size="0.03"/>
+          </body>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_equations_of_motion_of_a_robot_that_floats_are_those_of_mujoco(program: Program, tmp_path: Path) -> None:
+    """MuJoCo has the velocity of a free body in global axes, and its angular velocity in those of the body."""
+    robot = imported(program, tmp_path, FLOATING, "")
+    sim = robot.simulation()
+    assert sim.coordinates() == ["trunk", "hip.angle", "knee.angle", "reach.displacement"]
+    random = np.random.default_rng(7)
+    reference = mujoco.MjModel.from_xml_string(FLOATING)
+    for _ in range(3):
+        quaternion = random.normal(size=4)
+        q = np.concatenate([random.normal(size=3), quaternion / np.linalg.norm(quaternion), random.normal(size=3)])
+        v = random.normal(size=9)
+        sim.reset(q, v)
+        found = sim.joint_state()
+        found[0][3:7] *= np.sign(found[0][3:7] @ q[3:7])
+        assert np.allclose(found[0], q, rtol=0, atol=1e-12)
+        assert np.allclose(found[1], v, rtol=0, atol=1e-12)
+        data = mujoco.MjData(reference)
+        data.qpos[:], data.qvel[:] = q, v
+        turn = np.zeros(9)
+        mujoco.mju_quat2Mat(turn, q[3:7])
+        turn = turn.reshape(3, 3)
+        into = np.eye(9)
+        into[:3, :3] = turn
+        data.qvel[:3] = turn @ v[:3]
+        mujoco.mj_forward(reference, data)
+        mass = mass_matrix(reference, data)
+        carried = np.zeros(9)
+        carried[:3] = turn @ np.cross(v[3:6], v[:3])
+        assert np.allclose(sim.mass_matrix(), into.T @ mass @ into, rtol=0, atol=1e-10)
+        assert np.allclose(sim.bias(), into.T @ (data.qfrc_bias + mass @ carried), rtol=0, atol=1e-9)
+    sim.reset({"hip.angle": 0.5})
+    moved, _ = sim.joint_state()
+    sim.reset()
+    start, _ = sim.joint_state()
+    assert np.allclose(moved[:7], start[:7], rtol=0, atol=1e-12)

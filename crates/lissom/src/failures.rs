@@ -67,7 +67,7 @@ catalogued! {
             cause: "`{name}` is not one of the joint coordinates",
             remedy: "they are: {known}",
             meaning: "A joint coordinate was named that the model does not have, or a rate of a coordinate that is not among the chosen independent ones.",
-            advice: "Coordinates are named after their joints, such as `elbow.angle` or `rail.displacement`.",
+            advice: "Coordinates are named after their joints, such as `elbow.angle` or `rail.displacement`, and the base of a robot that floats after its body.",
         }
         NoDefault { actuated => actuated, single => single, freedoms => freedoms } => "no-joint-coordinates" {
             cause: "the motion has {freedoms} degrees of freedom, but {actuated} joint coordinates have an actuator, and {single} joints have a single coordinate",
@@ -79,6 +79,11 @@ catalogued! {
             cause: "joint coordinate `{name}` cannot be {value}",
             remedy: "specify a finite number",
             meaning: "A value or rate of a joint coordinate is infinite or not a number.",
+        }
+        NoRotation { 0 => base } => "base-without-rotation" {
+            cause: "the quaternion q0 … q3 of base `{base}` has no direction",
+            remedy: "give four finite numbers that are not all zero, the scalar part first",
+            meaning: "The orientation of a floating base was given by a quaternion of length zero.",
         }
         Output { name => name, known => known } => "jacobian-output" {
             cause: "the model has no output `{name}`",

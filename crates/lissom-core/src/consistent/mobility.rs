@@ -7,7 +7,7 @@ use lissom_motion::Vector3;
 use super::loops;
 use super::redundancy::GEOMETRIC_TOLERANCE;
 use crate::joints::Equations;
-use crate::kinematics::{CoordinateId, Quantity};
+use crate::kinematics::{LOCKED, NodeId, Quantity};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
@@ -118,12 +118,12 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     result
 }
 
-/// Degrees of freedom of all that constraints or inertias couple with these coordinates; other parts are not counted.
-pub fn coupled_freedoms(system: &System, state: &State, coordinates: &[CoordinateId]) -> usize {
+/// Degrees of freedom of all that constraints or inertias couple with these rows of the layout; other parts are not counted.
+pub fn coupled_freedoms(system: &System, state: &State, rows: &[usize]) -> usize {
     let layout = system.layout();
     let count = layout.coordinate_count();
     let first = loops::coupled_rows(system, &state.kinematics);
-    let own: BTreeSet<usize> = coordinates.iter().map(|&own| first[layout.row_of_coordinate(own)]).collect();
+    let own: BTreeSet<usize> = rows.iter().map(|&row| first[row]).collect();
     let is_own =
         |multiplier: usize| own.contains(&first[count + multiplier]) && !layout.is_of_velocities(multiplier);
     let rows = first[..count].iter().filter(|row| own.contains(row)).count();
@@ -133,6 +133,18 @@ pub fn coupled_freedoms(system: &System, state: &State, coordinates: &[Coordinat
     let redundant =
         redundant.filter(|own| own.self_stress.iter().all(|&(multiplier, _)| is_own(multiplier))).count();
     rows + redundant - equations
+}
+
+/// Nodes that constraints or inertias couple with a free node, and the node itself.
+pub fn coupled_nodes(system: &System, state: &State, node: NodeId) -> Vec<NodeId> {
+    let layout = system.layout();
+    let first = loops::coupled_rows(system, &state.kinematics);
+    let group = |node: NodeId| {
+        let row = layout.rows_of_node(node).iter().find(|&&row| row != LOCKED)?;
+        Some(first[*row as usize])
+    };
+    let own = group(node);
+    layout.nodes().filter(|&other| own.is_some() && group(other) == own).collect()
 }
 
 /// Self-stress of the redundant row `repeating`, from the factors with which reduced rows were subtracted until it vanished.

@@ -1,4 +1,5 @@
-//! Motion in joint coordinates: the rates of independent joint coordinates z determine all velocities.
+//! Motion in joint coordinates: the rates of independent joint coordinates z determine all velocities. The velocities of a free body, in
+//! its axes, are such rates, too: those of the base of a robot that floats.
 //!
 //! Legend: M mass, B gradient of the constraints c, f forces without accelerations, E unit vectors of the rows of z, τ forces on z.
 //!
@@ -19,7 +20,7 @@ use crate::consistent::mobility::{coupled_freedoms, mobility};
 use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::integrator::pivoting_unless_augmented;
-use crate::kinematics::{CoordinateId, Subject};
+use crate::kinematics::Subject;
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Settings;
@@ -45,8 +46,9 @@ diagnostics! {
             remedy: "choose as many independent joint coordinates as these parts have degrees of freedom",
             meaning: "The rates of the chosen joint coordinates do not determine the velocities of the parts that joints connect with \
                       them, or are not independent.",
-            advice: "Choose all independent coordinates of these parts. Parts that no joint connects with them, such as free bodies, \
-                     need none; an arm with a beam has more degrees of freedom than joint coordinates.",
+            advice: "Choose all independent coordinates of these parts, and the name of a free body among them for the six of a robot \
+                     that floats. Parts that no joint connects with them need none; an arm with a beam has more degrees of freedom than \
+                     joint coordinates.",
         }
         /// A joint coordinate depends on the others, or is prescribed.
         Dependent {
@@ -72,21 +74,17 @@ impl From<InitialError> for JointSpaceError {
     }
 }
 
-/// Checks that there are as many `coordinates` as degrees of freedom of all that is coupled with them, and none only without any
+/// Checks that there are as many `rows` of rates as degrees of freedom of all that is coupled with them, and none only without any
 /// degree of freedom.
 ///
 /// # Errors
 /// [`JointSpaceError::Number`] otherwise.
-pub fn check_number(
-    system: &System,
-    state: &State,
-    coordinates: &[CoordinateId],
-) -> Result<(), JointSpaceError> {
-    let freedoms = match coordinates {
+pub fn check_number(system: &System, state: &State, rows: &[usize]) -> Result<(), JointSpaceError> {
+    let freedoms = match rows {
         [] => mobility(system, state).freedoms,
-        _ => coupled_freedoms(system, state, coordinates),
+        _ => coupled_freedoms(system, state, rows),
     };
-    let coordinates = coordinates.len();
+    let coordinates = rows.len();
     if freedoms == coordinates { Ok(()) } else { Err(JointSpaceError::Number { coordinates, freedoms }) }
 }
 
@@ -110,18 +108,19 @@ impl JointMotion {
 
 /// Computes the motion in joint coordinates.
 pub struct JointSpace {
-    coordinates: Vec<CoordinateId>,
+    /// Rows of the rates in the layout.
+    rows: Vec<usize>,
     initial: ConsistentInitialConditions,
 }
 
 impl JointSpace {
-    /// For these independent `coordinates` of joints.
-    pub fn new(system: &System, state: &State, settings: &Settings, coordinates: Vec<CoordinateId>) -> Self {
+    /// For the independent rates in these `rows` of the layout: of coordinates of joints, and all six of a free body.
+    pub fn new(system: &System, state: &State, settings: &Settings, rows: Vec<usize>) -> Self {
         let linearization = system.linearization_at(&state.kinematics);
         let representative = Representative::of(system, &state.kinematics, &linearization);
         let kind = pivoting_unless_augmented(settings);
         let initial = ConsistentInitialConditions::new(system, state, &representative, kind);
-        Self { coordinates, initial }
+        Self { rows, initial }
     }
 
     /// Mass matrix and bias at a state under the forces of the model.
@@ -131,7 +130,7 @@ impl JointSpace {
     pub fn motion(&mut self, system: &System, state: &State) -> Result<JointMotion, JointSpaceError> {
         let (directions, mass) = self.directions_and_mass(system, state)?;
         let free = self.initial.acceleration_with_factors(system, state)?;
-        let bias = -&mass * self.of_coordinates(system, &free);
+        let bias = -&mass * self.of_coordinates(&free);
         Ok(JointMotion { directions, mass, bias })
     }
 
@@ -153,7 +152,7 @@ impl JointSpace {
             *value = -*value;
         }
         self.initial.solve(system, &mut driven);
-        let missing = DVector::from_column_slice(rates) - self.of_coordinates(system, &driven);
+        let missing = DVector::from_column_slice(rates) - self.of_coordinates(&driven);
         for (value, change) in driven.iter_mut().zip(&(directions * missing)) {
             *value += change;
         }
@@ -162,9 +161,8 @@ impl JointSpace {
     }
 
     /// The entries of a vector by row that belong to the coordinates.
-    fn of_coordinates(&self, system: &System, rows: &[f64]) -> DVector<f64> {
-        let own = self.coordinates.iter().map(|&own| rows[system.layout().row_of_coordinate(own)]);
-        DVector::from_iterator(self.coordinates.len(), own)
+    fn of_coordinates(&self, rows: &[f64]) -> DVector<f64> {
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(|&row| rows[row]))
     }
 
     /// T: velocities of the system per unit rate of each coordinate, by row of the system.
@@ -182,15 +180,15 @@ impl JointSpace {
         state: &State,
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), JointSpaceError> {
         let layout = system.layout();
-        let (count, size) = (layout.coordinate_count(), self.coordinates.len());
+        let (count, size) = (layout.coordinate_count(), self.rows.len());
         self.initial.factor(system, state, Inertias::All)?;
         let mut responses = DMatrix::zeros(count, size);
         let mut momenta = DMatrix::zeros(count, size);
         let mut right = vec![0.0; layout.size()];
         let mut product = right.clone();
-        for (column, &coordinate) in self.coordinates.iter().enumerate() {
+        for (column, &row) in self.rows.iter().enumerate() {
             right.fill(0.0);
-            right[layout.row_of_coordinate(coordinate)] = 1.0;
+            right[row] = 1.0;
             self.initial.solve(system, &mut right);
             right[count..].fill(0.0);
             self.initial.multiply_mass(system, &right, &mut product);
@@ -198,11 +196,9 @@ impl JointSpace {
             momenta.column_mut(column).copy_from_slice(&product[..count]);
         }
         let energies = responses.tr_mul(&momenta);
-        let dependent = |index: usize| {
-            let coordinate = layout.coordinate_name(self.coordinates[index]).to_owned();
-            JointSpaceError::Dependent { coordinate }
-        };
-        let rows: Vec<usize> = self.coordinates.iter().map(|&own| layout.row_of_coordinate(own)).collect();
+        let dependent =
+            |index: usize| JointSpaceError::Dependent { coordinate: layout.name_of(self.rows[index]) };
+        let rows = &self.rows;
         let own = DVector::from_fn(size, |index, _| responses[(rows[index], index)]);
         // These comparisons are false for NaN.
         let is_motion = |index: &usize| {

@@ -140,15 +140,19 @@ class Simulation:
         """Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen,
         as many as degrees of freedom of the parts that joints connect with them; other parts, such as free bodies, move apart. By
         default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all joints with one
-        coordinate, in the order of the joints in the model file.
+        coordinate, in the order of the joints in the model file. A robot that floats has one more name at the beginning: that of
+        its base, a free body, which stands for seven values and six rates.
 
         Raises `ValueError` if a name is unknown, or they are not as many as those degrees of freedom.
         """
     def joint_state(self) -> tuple[Array, Array]:
-        """Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`."""
+        """Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`. A base has its
+        position x, y, z and quaternion q0 … q3 in global axes, and its velocity and angular velocity in its own axes.
+        """
     def mass_matrix(self) -> Array:
         """Mass matrix H of `H q̈ + h = τ`, the equations of motion in the joint coordinates q, in the order of `coordinates()`; τ are the
-        forces of `joint_torque` and `joint_force` loads on them. An array of shape (number of coordinates, number of coordinates).
+        forces of `joint_torque` and `joint_force` loads on them. An array of shape (number of rates, number of rates): a base has the
+        first six, its velocity and angular velocity in its own axes.
 
         Raises `ValueError` if there are no joint coordinates, `SolutionError` if they depend on each other in this position.
         """
@@ -172,7 +176,8 @@ class Simulation:
         """
     def reset(self, q: Optional[_JointValues] = None, v: Optional[_JointValues] = None) -> None:
         """Starts again at the start time, with these values `q` of joint coordinates [rad, m] and rates `v` [rad/s, m/s]: dictionaries, or
-        arrays in the order of `coordinates()`. Parts are moved such that all joints close. Coordinates that are not named stay where
+        arrays in the order of `coordinates()`; a base is given by a list of seven values or six rates. Parts are moved such that all
+        joints close, and a base that is not named stays where it was. Coordinates that are not named stay where
         they were at the model's start if they can, and rates that are not named are zero. Inputs are those of the model. Without
         arguments this is the start of the model, with its velocities.
 

@@ -7,6 +7,7 @@ use lissom_core::system::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::Vector6;
 
+use super::joint_coordinates::pose_of;
 use super::{JointCoordinateError, JointCoordinates, Session};
 
 /// Evaluates `H z̈ + h = τ` at the present state of a session: z joint coordinates, τ the forces of `joint_torque` and `joint_force`
@@ -23,7 +24,7 @@ impl JointDynamics {
     pub fn new(session: &Session, coordinates: JointCoordinates) -> Self {
         let simulation = session.simulation();
         let (system, state, settings) = (simulation.system(), simulation.state(), simulation.settings());
-        let space = JointSpace::new(system, state, settings, coordinates.ids().to_vec());
+        let space = JointSpace::new(system, state, settings, coordinates.rows().to_vec());
         Self { coordinates, space, recovery: Recovery::of(simulation) }
     }
 
@@ -32,11 +33,20 @@ impl JointDynamics {
         &self.coordinates
     }
 
-    /// Values [rad, m] and rates [rad/s, m/s] of the coordinates.
+    /// Values [rad, m] and rates [rad/s, m/s] of the coordinates, those of a base first.
     pub fn values_and_rates(&mut self, session: &Session) -> [Vec<f64>; 2] {
-        let state = recovered(&mut self.recovery, session);
-        let own = self.coordinates.ids().iter().map(|&own| &state.kinematics.coordinates[own]);
-        [own.clone().map(|own| own.value).collect(), own.map(|own| own.rate).collect()]
+        let at = &recovered(&mut self.recovery, session).kinematics;
+        let base = self.coordinates.base().map(|node| &at.nodes[node]);
+        let of_base = [
+            base.map(|node| pose_of(&node.frame).to_vec()).unwrap_or_default(),
+            base.map(|node| node.twist.as_slice().to_vec()).unwrap_or_default(),
+        ];
+        let own = self.coordinates.ids().iter().map(|&own| &at.coordinates[own]);
+        let [values, rates] = of_base;
+        [
+            values.into_iter().chain(own.clone().map(|own| own.value)).collect(),
+            rates.into_iter().chain(own.map(|own| own.rate)).collect(),
+        ]
     }
 
     /// Mass matrix H, bias h [N m, N] and the velocities of the system per unit rate. Where friction depends on normal forces, h
@@ -110,7 +120,7 @@ fn recovered<'a>(recovery: &'a mut Option<Box<Recovery>>, session: &'a Session) 
     found.map_or(at.1, |recovered| &recovered.rates)
 }
 
-/// Present forces of the actuators on the coordinates: their power at unit rates.
+/// Present forces of the actuators on the rates of the coordinates: their power at unit rates. A base has none: they act between parts.
 fn actuator_forces(coordinates: &JointCoordinates, system: &System, at: &Kinematics) -> Vec<f64> {
     let mut moving = at.clone();
     for node in &mut moving.nodes {
@@ -130,5 +140,6 @@ fn actuator_forces(coordinates: &JointCoordinates, system: &System, at: &Kinemat
         moving.coordinates[own].rate = 0.0;
         force
     };
-    coordinates.ids().iter().map(force).collect()
+    let of_base = if coordinates.base().is_some() { 6 } else { 0 };
+    std::iter::repeat_n(0.0, of_base).chain(coordinates.ids().iter().map(force)).collect()
 }

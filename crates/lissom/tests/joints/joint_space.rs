@@ -193,3 +193,128 @@ fn loops_are_closed_by_their_constraints() {
     let refused = JointDynamics::new(&session, rail).motion(&session).expect_err("a dead point");
     assert!(refused.to_string().contains("rail.displacement"), "{refused}");
 }
+
+/// A trunk that floats, with a leg of two parts and a ball beside it.
+const FLOATING: &str = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[inputs]
+hip = 3
+knee = -2
+[bodies.ball]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [5, 5, 0]
+[bodies.trunk]
+mass = 4
+inertia = [0.3, 0.2, 0.25]
+position = [0.1, -0.2, 1]
+center_of_mass = [0.05, 0.02, -0.03]
+[bodies.thigh]
+mass = 1.2
+inertia = [0.05, 0.04, 0.02]
+position = [0.3, -0.2, 0.8]
+[bodies.shank]
+mass = 0.6
+inertia = [0.03, 0.03, 0.01]
+position = [0.3, -0.2, 0.4]
+[joints]
+hip = { kind = "revolute", base = "trunk", tip = "thigh", at = [0.3, -0.2, 1], axis = [0, 1, 0.2] }
+knee = { kind = "revolute", base = "thigh", tip = "shank", at = [0.3, -0.2, 0.6], axis = [0, 1, 0] }
+[loads]
+hip = { kind = "joint_torque", joint = "hip", torque = "hip" }
+knee = { kind = "joint_torque", joint = "knee", torque = "knee" }
+wind = { kind = "force", on = "shank", vector = [1.5, 0, 0.4] }
+[outputs]
+foot = { kind = "position", of = "shank", point = [0.3, -0.2, 0.2] }
+speed = { kind = "velocity", of = "shank", point = [0.3, -0.2, 0.2] }
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"#;
+
+fn pairs(names: &[String], values: &[f64]) -> Vec<(String, f64)> {
+    names.iter().cloned().zip(values.iter().copied()).collect()
+}
+
+/// The base has its pose and velocities, energies and Jacobians are those of the rates, and the accelerations of a start are those of
+/// the torques, with nothing that holds the base.
+#[test]
+fn a_base_that_floats_has_six_equations_more() {
+    let prepared = prepared(FLOATING);
+    let coordinates = prepared.joint_coordinates(None).expect("a base and two joints");
+    assert_eq!(coordinates.names(), ["trunk", "hip.angle", "knee.angle"]);
+    let (of_values, of_rates) = (coordinates.value_names(), coordinates.rate_names());
+    let values = [0.4, -0.3, 2.0, 0.5, -0.5, 0.5, 0.5, 0.7, -0.9];
+    let rates = [0.3, -0.2, 0.6, 1.1, -0.4, 0.8, 1.5, -2.0];
+    let session = prepared
+        .session_at(&pairs(&of_values, &values), Some(&coordinates), &pairs(&of_rates, &rates))
+        .expect("it closes");
+    let mut dynamics = JointDynamics::new(&session, coordinates.clone());
+    let [found, speeds] = dynamics.values_and_rates(&session);
+    for (found, given) in found.iter().chain(&speeds).zip(values.iter().chain(&rates)) {
+        assert_close(*found, *given, "state");
+    }
+    let motion = dynamics.motion(&session).expect("independent");
+    let (system, state) = (session.simulation().system(), session.state());
+    for k in 0..3 {
+        assert_close(motion.mass[(k, k)], 5.8, "mass");
+    }
+    let ball = system.energy_of(state).kinetic;
+    let energy: f64 = (0..8)
+        .flat_map(|i| (0..8).map(move |j| (i, j)))
+        .map(|(i, j)| motion.mass[(i, j)] * rates[i] * rates[j])
+        .sum();
+    assert_close(0.5 * energy, ball, "energy");
+
+    let trunk =
+        system.layout().nodes().find(|&node| system.layout().node_name(node) == "trunk").expect("there");
+    let at = &state.kinematics;
+    let own = ["hip.angle", "knee.angle"].map(|name| {
+        let layout = system.layout();
+        let own = layout.coordinates().find(|&own| layout.coordinate_name(own) == name).expect("known");
+        at.coordinates[own].acceleration
+    });
+    let accelerations: Vec<f64> = at.nodes[trunk].acceleration.iter().copied().chain(own).collect();
+    let forces = motion.forces(&accelerations);
+    for (found, wanted) in forces.iter().zip([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0, -2.0]) {
+        assert_close(*found, wanted, "force");
+    }
+    let (_, of_foot) = dynamics.jacobian(&session, "foot").expect("a motion");
+    let (_, of_speed) = dynamics.jacobian(&session, "speed").expect("a motion");
+    for (foot, speed) in of_foot.iter().zip(&of_speed) {
+        for (foot, speed) in foot.iter().zip(speed) {
+            assert_close(*foot, *speed, "Jacobian");
+        }
+    }
+}
+
+/// A joint moves the child and what it carries, and leaves the base and free parts beside it.
+#[test]
+fn joints_of_a_base_that_floats_leave_it_where_it_is() {
+    let prepared = prepared(FLOATING);
+    let coordinates = prepared.joint_coordinates(None).expect("a base and two joints");
+    let knee = vec![("knee.angle".to_owned(), 0.5)];
+    let session = prepared.session_at(&knee, Some(&coordinates), &[]).expect("it closes");
+    let (before, after) = (&prepared.state().kinematics, &session.state().kinematics);
+    let layout = prepared.system().layout();
+    for node in layout.nodes() {
+        let moved = (before.nodes[node].frame.position - after.nodes[node].frame.position).norm();
+        let is_moved = layout.node_name(node) == "shank";
+        assert_eq!(moved > 1e-9, is_moved, "{}: {moved}", layout.node_name(node));
+    }
+    let lifted = vec![("trunk.z".to_owned(), 3.0)];
+    let session = prepared.session_at(&lifted, Some(&coordinates), &[]).expect("it closes");
+    for node in layout.nodes() {
+        let moved = session.state().kinematics.nodes[node].frame.position - before.nodes[node].frame.position;
+        let is_lifted = ["trunk", "thigh", "shank"].contains(&layout.node_name(node));
+        assert_close(moved.z, if is_lifted { 2.0 } else { 0.0 }, layout.node_name(node));
+    }
+    let none: Vec<_> = ["q0", "q1", "q2", "q3"].iter().map(|own| (format!("trunk.{own}"), 0.0)).collect();
+    let refused = prepared.session_at(&none, Some(&coordinates), &[]).err().expect("no rotation");
+    assert!(refused.to_string().contains("`trunk`"), "{refused}");
+    let chosen = ["thigh", "hip.angle", "knee.angle"].map(str::to_owned);
+    assert_eq!(prepared.joint_coordinates(Some(&chosen)).expect("another base").names()[0], "thigh");
+    assert!(prepared.joint_coordinates(Some(&chosen[1..])).is_err());
+}
