@@ -80,7 +80,7 @@ impl Import {
         robot.locate_meshes(&self.file, &out);
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {
-            root: if self.floating { Root::Floating } else { Root::Held },
+            root: if self.floating || robot.is_object() { Root::Floating } else { Root::Held },
             limits: !self.without.contains(&Part::Limits),
             friction: !self.without.contains(&Part::Friction),
             mimic: !self.without.contains(&Part::Mimic),
@@ -105,10 +105,20 @@ impl Import {
             robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone());
         let left_out: String =
             left_out.flat_map(|what| ["  omitted: ".to_owned(), what, "\n".to_owned()]).collect();
+        let base = &robot.links[0].name;
+        let root = match options.root {
+            Root::Floating if !self.floating => {
+                format!("  root: `{base}` is a free body, because nothing else moves\n")
+            }
+            Root::Held if robot.may_float() => {
+                format!("  root: `{base}` is fixed to the ground; --floating lets it move\n")
+            }
+            _ => String::new(),
+        };
         let chosen = chosen_starts(&robot, &pose, options);
         let starts = self.starts(&chosen, &out);
         terminal::print(&format!(
-            "{} is written: {} links, {moving} moving joints.\n{left_out}{starts}Next:\n  lissom view {} --open    simulate it and watch the \
+            "{} is written: {} links, {moving} moving joints.\n{root}{left_out}{starts}Next:\n  lissom view {} --open    simulate it and watch the \
              motion\n",
             out.display(),
             robot.links.len(),

@@ -113,6 +113,50 @@ fn an_imported_robot_runs_as_it_is() {
     assert!(!folder.path().join("b.toml").exists());
 }
 
+/// Frames of tools and elements of simulators do not stand in the way, and a thing without joints is free.
+#[test]
+fn robots_of_the_world_their_tools_and_things_are_imported() {
+    let folder = Folder::new("import-things");
+    let inertia = "<inertia ixx='0.1' iyy='0.1' izz='0.1'/>";
+    let massive =
+        |name: &str| format!("<link name='{name}'><inertial><mass value='2'/>{inertia}</inertial></link>");
+    let joint = |kind: &str, name: &str, [parent, child]: [&str; 2]| {
+        format!(
+            "<joint name='{name}' type='{kind}'><parent link='{parent}'/><child link='{child}'/><axis xyz='0 1 0'/></joint>"
+        )
+    };
+    let arm = [
+        "<robot name='arm'><link name='world'/><link name='tool'/>".to_owned(),
+        massive("base") + &massive("upper"),
+        joint("fixed", "foot", ["world", "base"]) + &joint("continuous", "hip", ["base", "upper"]),
+        joint("continuous", "wrist", ["upper", "tool"]),
+        "<gazebo reference='upper'><mu1>0.2</mu1></gazebo><transmission name='t'/></robot>".to_owned(),
+    ];
+    for (name, text, words) in [
+        ("arm", arm.concat(), &["1 moving joints", "which are fixed: `wrist`", "1 <gazebo>"][..]),
+        (
+            "held",
+            arm.concat()
+                .replace("<link name='world'/>", "")
+                .replace(&joint("fixed", "foot", ["world", "base"]), ""),
+            &["`base` is fixed to the ground; --floating"],
+        ),
+        ("cup", format!("<robot name='cup'>{}</robot>", massive("cup")), &["`cup` is a free body"]),
+    ] {
+        folder.write(&format!("{name}.urdf"), &text);
+        let made = lissom(&["import", &format!("{name}.urdf")], folder.path());
+        assert_eq!((made.code, made.errors.as_str()), (0, ""), "{name}");
+        for words in words {
+            assert!(made.output.contains(words), "{words}: {}", made.output);
+        }
+        let run = lissom(
+            &["run", &format!("{name}.toml"), "--no-plots", "--quiet", "--set", "analysis.end=0.05"],
+            folder.path(),
+        );
+        assert_eq!(run.code, 0, "{name}: {}", run.errors);
+    }
+}
+
 /// The description of MuJoCo, by the same command: what is omitted is reported, what acts and is unknown is rejected.
 #[test]
 fn an_imported_robot_of_mujoco_runs_as_it_is() {

@@ -16,7 +16,7 @@ mod visuals;
 mod xml;
 
 use lissom_core::diagnostics::Diagnose;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
@@ -91,6 +91,23 @@ pub struct Robot {
 }
 
 impl Robot {
+    /// Whether the root and all that is fixed to it have mass, and it is not the world: it is a matter of choice whether it moves.
+    pub fn may_float(&self) -> bool {
+        let mut fixed = BTreeSet::from([0]);
+        for joint in self.joints.iter().filter(|joint| joint.freedom == Freedom::Fixed) {
+            if fixed.contains(&joint.parent) {
+                fixed.insert(joint.child);
+            }
+        }
+        let has_mass = fixed.iter().any(|&link| self.links[link].inertia.is_some());
+        !self.is_root_the_world && has_mass && self.links[0].name != "world"
+    }
+
+    /// Whether nothing moves unless the root does: a thing and no machine.
+    pub fn is_object(&self) -> bool {
+        self.may_float() && self.joints.iter().all(|joint| joint.freedom == Freedom::Fixed)
+    }
+
     /// The value of a reading; none, and an obstacle, if it failed.
     fn keep<T>(&mut self, read: Result<T, ImportError>) -> Option<T> {
         read.map_err(|error| self.obstacles.push(error.message)).ok()

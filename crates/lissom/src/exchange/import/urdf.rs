@@ -65,6 +65,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         obstacles,
     })?;
     let mut robot = with_planar_joints(robot, &planar);
+    fix_massless_ends(&mut robot);
     robot.motors_by_effort();
     Ok(robot)
 }
@@ -105,6 +106,34 @@ fn with_planar_joints(mut robot: Robot, planar: &BTreeSet<String>) -> Robot {
         all.push(RobotJoint { parent, origin, ..joint });
     }
     Robot { joints: all, ..robot }
+}
+
+/// Fixes joints that move no mass, such as those of tools and frames of cameras: their motion is no motion of the robot.
+fn fix_massless_ends(robot: &mut Robot) {
+    let mut has_mass: Vec<bool> = robot.links.iter().map(|link| link.inertia.is_some()).collect();
+    for joint in robot.joints.iter().rev() {
+        has_mass[joint.parent] |= has_mass[joint.child];
+    }
+    if !has_mass.first().is_some_and(|has| *has) {
+        return;
+    }
+    let leaders: BTreeSet<String> =
+        robot.joints.iter().filter_map(|joint| Some(joint.follows.as_ref()?.0.clone())).collect();
+    let is_end = |joint: &&mut RobotJoint| {
+        joint.freedom != Freedom::Fixed && !has_mass[joint.child] && !leaders.contains(&joint.name)
+    };
+    let mut names = Vec::new();
+    for joint in robot.joints.iter_mut().filter(is_end) {
+        names.push(format!("`{}`", joint.name));
+        joint.freedom = Freedom::Fixed;
+        (joint.range, joint.follows, joint.rating) = (None, None, MotorRating::default());
+        (joint.damping, joint.friction) = (0.0, 0.0);
+    }
+    if !names.is_empty() {
+        robot
+            .left_out
+            .push(format!("the motion of joints that carry no mass, which are fixed: {}", names.join(", ")));
+    }
 }
 
 /// Contents that are omitted from the model.
