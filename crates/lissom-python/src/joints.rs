@@ -127,11 +127,13 @@ impl Joints {
                 let chosen = self.chosen(prepared).ok();
                 let (mut names, mut columns) = (Vec::new(), Vec::new());
                 for (name, values) in given {
-                    let own =
-                        chosen.as_ref().map_or_else(|| vec![name.clone()], |own| own.components(&name, is_rate));
+                    let own = chosen
+                        .as_ref()
+                        .map_or_else(|| vec![name.clone()], |own| own.components(&name, is_rate));
                     let width = own.len();
                     let values = fitting(values, (width > 1).then_some(width))?;
-                    columns.extend((0..width).map(|k| values.iter().skip(k).step_by(width).copied().collect()));
+                    columns
+                        .extend((0..width).map(|k| values.iter().skip(k).step_by(width).copied().collect()));
                     names.extend(own);
                 }
                 let columns: Vec<Vec<f64>> = columns;

@@ -315,7 +315,9 @@ impl Simulation {
             is_fitting.then(|| motion.forces(&accelerations)).ok_or((found, wanted))
         })?;
         let forces = forces.map_err(|(found, wanted)| {
-            PyValueError::new_err(format!("there are {found} accelerations, but {wanted} rates of joint coordinates"))
+            PyValueError::new_err(format!(
+                "there are {found} accelerations, but {wanted} rates of joint coordinates"
+            ))
         })?;
         Ok(PyArray1::from_vec(py, forces))
     }
@@ -348,7 +350,10 @@ impl Simulation {
         let is_model = q.is_none() && v.is_none();
         let (values, rates) = {
             let mut joints = self.joints.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner);
-            (joints.rows(&self.prepared, (q, false), None)?.row(0), joints.rows(&self.prepared, (v, true), None)?)
+            (
+                joints.rows(&self.prepared, (q, false), None)?.row(0),
+                joints.rows(&self.prepared, (v, true), None)?,
+            )
         };
         let news = py.detach(|| {
             let beginning = if is_model {
