@@ -116,8 +116,13 @@ fn a_step_of_a_pile_at_rest_allocates_nothing() {
         friction: Some(Coulomb { sliding: 0.5, at_rest: 0.5, stribeck: 0.01 }),
         surface: None,
     };
-    let rule =
-        ContactRule { name: "pile".to_owned(), parts: (0..parts.len()).collect(), law, materials: None };
+    let rule = ContactRule {
+        name: "pile".to_owned(),
+        parts: (0..parts.len()).collect(),
+        groups: Vec::new(),
+        law,
+        materials: None,
+    };
     *builder.contacts_mut() = ContactSet { parts, rules: vec![rule] };
     let mut simulation = simulation(builder, backward_euler::backward_euler());
     let allocated = allocated_after(&mut simulation, 200);

@@ -55,10 +55,20 @@ pub struct ContactRule {
     pub name: String,
     /// Parts of the contact among those of the set, each once; of two parts the earlier one is the base.
     pub parts: Vec<usize>,
+    /// Of each part the groups to which it belongs, ascending: parts of a common group do not touch each other. Empty without groups.
+    pub groups: Vec<Vec<u32>>,
     /// Law of its touches; a moving surface is that of the first part.
     pub law: TouchLaw,
     /// Young's modulus [Pa] and Poisson's ratio of both materials, if the elastic force follows from them and the curvatures.
     pub materials: Option<[[f64; 2]; 2]>,
+}
+
+impl ContactRule {
+    /// Whether two of [`parts`](Self::parts), by their positions in it, may touch.
+    pub fn may_touch(&self, places: [usize; 2]) -> bool {
+        let [one, other] = places.map(|place| self.groups.get(place).map_or(&[][..], Vec::as_slice));
+        !one.iter().any(|group| other.binary_search(group).is_ok())
+    }
 }
 
 /// A point at which two parts may touch, with its law.

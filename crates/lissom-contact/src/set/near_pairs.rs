@@ -94,6 +94,10 @@ fn push_shared(set: &ContactSet, rules: &[Vec<[u32; 2]>], parts: [u32; 2], found
     for &[rule, place] in ours {
         if let Ok(index) = theirs.binary_search_by_key(&rule, |own| own[0]) {
             let [one, other] = parts;
+            let places = [place as usize, theirs[index][1] as usize];
+            if !set.rules[rule as usize].may_touch(places) {
+                continue;
+            }
             let parts = if place < theirs[index][1] { [one, other] } else { [other, one] };
             found.push(NearPair { rule, parts });
         }

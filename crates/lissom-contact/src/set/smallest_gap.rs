@@ -10,22 +10,27 @@ pub struct SmallestGap {
     rule: usize,
     /// Pairs with a part without bounds, and their points.
     unbounded: Vec<([usize; 2], Vec<PlacedMeeting>)>,
-    /// Parts of the contact with bounds.
+    /// Positions of the parts with bounds among those of the contact.
     bounded: Vec<usize>,
 }
 
 impl SmallestGap {
     /// Smallest gap of the contact of this index.
     pub fn new(set: &ContactSet, rule: usize) -> Self {
-        let parts = &set.rules[rule].parts;
+        let contact = &set.rules[rule];
+        let parts = &contact.parts;
         let is_bounded = |part: usize| set.parts[part].radius.is_finite();
         let mut unbounded = Vec::new();
         for (index, &tip) in parts.iter().enumerate() {
-            for &base in parts[..index].iter().filter(|&&base| !(is_bounded(base) && is_bounded(tip))) {
+            for (place, &base) in parts[..index].iter().enumerate() {
+                if is_bounded(base) && is_bounded(tip) || !contact.may_touch([place, index]) {
+                    continue;
+                }
                 unbounded.push(([base, tip], points(set, rule, [base, tip])));
             }
         }
-        Self { rule, unbounded, bounded: parts.iter().copied().filter(|part| is_bounded(*part)).collect() }
+        let bounded = (0..parts.len()).filter(|&place| is_bounded(parts[place])).collect();
+        Self { rule, unbounded, bounded }
     }
 
     /// At a configuration [m]; infinite if no parts can touch.
@@ -34,9 +39,12 @@ impl SmallestGap {
         for (parts, meetings) in &self.unbounded {
             least = least_of(set, *parts, meetings, at).min(least);
         }
-        for (index, &tip) in self.bounded.iter().enumerate() {
+        let contact = &set.rules[self.rule];
+        for (index, &place) in self.bounded.iter().enumerate() {
+            let tip = contact.parts[place];
             let own = at.nodes[set.parts[tip].node].frame.position;
-            for &base in &self.bounded[..index] {
+            for &other in self.bounded[..index].iter().filter(|&&other| contact.may_touch([other, place])) {
+                let base = contact.parts[other];
                 let apart = (at.nodes[set.parts[base].node].frame.position - own).norm();
                 if apart - set.parts[base].radius - set.parts[tip].radius < least {
                     let parts = [base, tip];

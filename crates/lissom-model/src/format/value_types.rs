@@ -62,6 +62,8 @@ pub(crate) enum Shape {
     Node,
     /// A list of nodes.
     Nodes,
+    /// Lists of nodes.
+    GroupsOfNodes,
     /// A number, an expression of the time `t`, or a table.
     Function,
     /// A number, an expression of time, inputs, signals, states and outputs, or a table.
@@ -285,6 +287,12 @@ impl Shape {
             }
             Self::Node => row("a node", text(), Fixed("Node"), "str"),
             Self::Nodes => row("a list of nodes", list_of(text(), 1), Fixed("Vec<Node>"), "list[str]"),
+            Self::GroupsOfNodes => row(
+                "lists of nodes",
+                list_of(list_of(text(), 2), 1),
+                Fixed("Vec<Vec<Node>>"),
+                "list[list[str]]",
+            ),
             Self::Function => row("a function of time", or_table(), Fixed("Function"), "Function"),
             Self::FunctionOf(variable) => phrase(
                 format!("an expression of `{variable}`, or a table of it written as a function of time"),

@@ -29,7 +29,8 @@ const FILES: [(&str, &str, &[&str]); 10] = [
     ("analyses", "Kind of analysis and its settings.", &["analysis"]),
 ];
 /// Words that mean something else in Python; they get a line below.
-const RESERVED: [&str; 10] = ["as", "from", "global", "if", "import", "in", "is", "lambda", "not", "with"];
+const RESERVED: [&str; 11] =
+    ["as", "except", "from", "global", "if", "import", "in", "is", "lambda", "not", "with"];
 /// The types of values that `_entry.py` has.
 const TYPES: [&str; 9] =
     ["Count", "Entry", "Function", "Names", "Number", "Place", "Table", "Tables", "Vector"];

@@ -425,3 +425,22 @@ fn impacts_beside_a_loaded_set_supply_no_energy() {
     let floats = velocity.windows(2).filter(|pair| pair[0] != 0.0 && pair[0] == pair[1]).count();
     assert_eq!(floats, 0);
 }
+
+/// Parts of a list of `except` pass through each other and touch all others, however contacts are solved.
+#[test]
+fn excepted_parts_do_not_touch_each_other() {
+    let balls = ball("a", 0.1, [0.0, 0.0, 0.2], "")
+        + &ball("b", 0.1, [0.05, 0.0, 0.35], "")
+        + &ball("c", 0.1, [0.0, 0.0, 0.55], "");
+    let contact = "tip = \"a\"\nothers = [\"b\", \"c\"]\nexcept = [[\"a\", \"b\"]]\ndissipation = 20";
+    let text = on_plane([0.0, -G], &balls, contact, [1e-3, 1.5]);
+    for solution in ["set", "elements"] {
+        let record = run(&text, &[("analysis.contacts", solution)]);
+        let heights = ["a.z", "b.z", "c.z"].map(|name| last(&record, name));
+        assert!(
+            (heights[0] - 0.1).abs() < 2e-3 && (heights[1] - 0.1).abs() < 2e-3,
+            "{solution}: {heights:?}"
+        );
+        assert!(heights[2] > 0.25, "{solution}: the third lies on the others: {heights:?}");
+    }
+}

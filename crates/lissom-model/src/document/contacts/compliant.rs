@@ -31,6 +31,7 @@ pub struct CompliantLaw {
 pub(super) fn keys() -> Vec<Key> {
     let mut keys = vec![
         law::other_parts(),
+        law::exceptions(),
         law::is_rigid(),
         optional("stiffness", Shape::Positive, "N/m^n", "normal force at a penetration of 1 m"),
         law::exponent(),

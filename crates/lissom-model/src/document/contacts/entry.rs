@@ -18,6 +18,8 @@ pub struct ContactEntry {
     pub between: [Located<NodeReference>; 2],
     /// Further parts: every two of all touch each other.
     pub others: Vec<Located<NodeReference>>,
+    /// Groups of these parts, by their positions among base, tip and others: no two of a group touch each other.
+    pub except: Vec<Vec<usize>>,
     /// How they touch.
     pub law: ContactLaw,
 }
@@ -49,10 +51,23 @@ impl ContactEntry {
     /// Every two parts that may touch.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = [&Located<NodeReference>; 2]> {
         let parts: Vec<_> = self.between.iter().chain(&self.others).collect();
+        let groups = self.groups();
         (1..parts.len()).flat_map(move |tip| {
-            let parts = parts.clone();
-            (0..tip).map(move |base| [parts[base], parts[tip]])
+            let (parts, groups) = (parts.clone(), groups.clone());
+            let is_apart = move |base: usize| groups[base].iter().any(|own| groups[tip].contains(own));
+            (0..tip).filter(move |base| !is_apart(*base)).map(move |base| [parts[base], parts[tip]])
         })
+    }
+
+    /// Of base, tip and each other part the groups to which it belongs, ascending.
+    pub(crate) fn groups(&self) -> Vec<Vec<u32>> {
+        let mut of = vec![Vec::new(); 2 + self.others.len()];
+        for (group, parts) in (0..).zip(&self.except) {
+            for part in parts {
+                of[*part].push(group);
+            }
+        }
+        of
     }
 
     /// Friction of the contact, if it has bristles.

@@ -57,6 +57,12 @@ pub(super) fn other_parts() -> Key {
     unitless("others", Shape::Nodes, "further parts: every two of `base`, `tip` and these may touch")
 }
 
+/// Groups of parts that do not touch each other.
+pub(super) fn exceptions() -> Key {
+    let words = "with `others`: lists of parts of which no two touch";
+    unitless("except", Shape::GroupsOfNodes, words)
+}
+
 /// The older word for the kind of rigid contacts.
 pub(super) fn is_rigid() -> Key {
     let words = "older word for the kinds `rigid` and `compliant`";

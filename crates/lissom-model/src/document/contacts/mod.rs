@@ -28,7 +28,11 @@ pub(super) fn contacts(context: &Context<'_>, parts: &Parts<'_>) -> Vec<ContactE
         let kind = kinds::of(context, node, (&what, span))?;
         let reader = Reader::open(context, node, (what, span), kind.keys())?;
         let (between, others, law) = (kind.read)(&reader, parts)?;
-        Some(ContactEntry { name: Located::new(String::from(name), span), between, others, law })
+        let except = match law {
+            ContactLaw::Flexible(_) => Vec::new(),
+            _ => parts::exceptions(&reader, &between, &others)?,
+        };
+        Some(ContactEntry { name: Located::new(String::from(name), span), between, others, except, law })
     };
     context.entries("contacts").into_iter().filter_map(entry).collect()
 }

@@ -1,5 +1,7 @@
 //! The parts that a contact names, and whether they have solids.
 
+use std::collections::BTreeMap;
+
 use super::super::ports::two_nodes;
 use super::super::{Body, Ground, NodeReference, PointMass};
 use crate::reading::reader::Reader;
@@ -83,6 +85,51 @@ fn others(reader: &Reader<'_, '_>, between: &TwoParts) -> Option<Vec<Located<Nod
         found.push(part);
     }
     Some(found)
+}
+
+/// Groups of parts that do not touch each other, by their positions among base, tip and others.
+pub(super) fn exceptions(
+    reader: &Reader<'_, '_>,
+    between: &TwoParts,
+    others: &[Located<NodeReference>],
+) -> Option<Vec<Vec<usize>>> {
+    let Some(node) = reader.node("except") else { return Some(Vec::new()) };
+    let (context, what) = (reader.context, reader.words("except"));
+    let Value::List(lists) = &node.value else { return context.wrong_type(node, &what, "lists of parts") };
+    let mut places = BTreeMap::new();
+    for (place, part) in between.iter().chain(others).enumerate() {
+        places.insert(words(&part.value), place);
+    }
+    let mut groups = Vec::new();
+    for list in lists {
+        let Value::List(entries) = &list.value else {
+            return context.wrong_type(list, &format!("each entry of {what}"), "a list of parts");
+        };
+        let mut group = Vec::new();
+        for entry in entries {
+            let part = context.node(entry, &format!("each part of {what}"))?;
+            let Some(&place) = places.get(&words(&part.value)) else {
+                let message = format!(
+                    "`except` of {} names {}, which is no part of it",
+                    reader.what,
+                    words(&part.value)
+                );
+                return context.fail(part.span, message, "name parts among `base`, `tip` and `others`");
+            };
+            if group.contains(&place) {
+                let message =
+                    format!("a list of `except` of {} names {} twice", reader.what, words(&part.value));
+                return context.fail(part.span, message, "remove one of them");
+            }
+            group.push(place);
+        }
+        if group.len() < 2 {
+            let message = format!("a list of `except` of {} has fewer than two parts", reader.what);
+            return context.fail(list.span, message, "name at least two parts that do not touch each other");
+        }
+        groups.push(group);
+    }
+    Some(groups)
 }
 
 /// A part in words.

@@ -11,6 +11,7 @@ use crate::reading::reader::Reader;
 pub(super) fn keys() -> Vec<Key> {
     vec![
         law::other_parts(),
+        law::exceptions(),
         law::is_rigid(),
         unitless("restitution", Shape::Between(0.0, 1.0), "velocity after an impact over that before")
             .or_number(0.0),

@@ -27,10 +27,15 @@ pub(super) fn add(
     }
     let members: Vec<_> = entry.between.iter().chain(&entry.others).collect();
     let solids: Vec<_> = members.iter().map(|part| solids(document, &part.value)).collect();
+    let has_clamps = document.joints.iter().any(|joint| joint.kind.value == "clamp");
+    let groups = entry.groups();
+    let is_apart = |[base, tip]: [usize; 2]| groups[base].iter().any(|own| groups[tip].contains(own));
     let mut known: Vec<[FormKind; 2]> = Vec::new();
     for tip in 1..members.len() {
-        for base in 0..tip {
-            check_clamp(document, name, [members[base], members[tip]])?;
+        for base in (0..tip).filter(|&base| !is_apart([base, tip])) {
+            if has_clamps {
+                check_clamp(document, name, [members[base], members[tip]])?;
+            }
             let between =
                 solids[base].iter().flat_map(|one| solids[tip].iter().map(move |other| [one, other]));
             for pair in between {
@@ -59,7 +64,7 @@ pub(super) fn add(
     // The compliance of two materials depends on the curvatures of each pair.
     let own = law.compliance.as_ref().copied().unwrap_or(Compliance { stiffness: 1.0, exponent: 1.5 });
     let law = TouchLaw { compliance: own, impact: law.impact, friction, surface };
-    builder.contacts_mut().rules.push(ContactRule { name: name.clone(), parts, law, materials });
+    builder.contacts_mut().rules.push(ContactRule { name: name.clone(), parts, groups, law, materials });
     Ok(())
 }
 

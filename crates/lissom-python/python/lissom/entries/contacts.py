@@ -18,6 +18,7 @@ class Contact(Entry):
         base: a body or point mass with a `shape`, or "ground"; or a beam if the tip is one; or a shell, with `stiffness_per_area`; a node.
         tip: the other part that may touch it; or the name of a beam, a shell or a solid; a node.
         others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
+        except_: with `others`: lists of parts of which no two touch; lists of nodes, or nothing.
         rigid: older word for the kinds `rigid` and `compliant`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
@@ -47,6 +48,7 @@ class Contact(Entry):
     base: str
     tip: str
     others: list[str] | None = None
+    except_: list[list[str]] | None = None
     rigid: bool | None = None
     stiffness: Number | None = None
     exponent: Number | None = None

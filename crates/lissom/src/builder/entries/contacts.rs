@@ -13,6 +13,7 @@ entries! {
         * tip: Node = "tip", "the other part that may touch it; or the name of a beam, a shell or a solid";
         kind: words::Kind = "kind", "Its kind; default by its parts and keys.";
         others: Vec<Node> = "others", "Further parts: every two of `base`, `tip` and these may touch.";
+        except: Vec<Vec<Node>> = "except", "With `others`: lists of parts of which no two touch.";
         rigid: bool = "rigid", "Older word for the kinds `rigid` and `compliant`.";
         stiffness: f64 = "stiffness", "Normal force at a penetration of 1 m \\[N/m^n\\].";
         exponent: f64 = "exponent", "Exponent n of the penetration, at least 1; default 1.";

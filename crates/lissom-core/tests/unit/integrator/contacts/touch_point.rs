@@ -17,7 +17,13 @@ fn point(impact: Impact, exponent: f64, size: f64) -> TouchPoint {
     let compliance = Compliance { stiffness: 1e5, exponent };
     let friction = Some(Coulomb { sliding: 0.3, at_rest: 0.3, stribeck: 0.01 });
     let law = TouchLaw { compliance, impact, friction, surface: None };
-    let rules = vec![ContactRule { name: "floor".to_owned(), parts: vec![0, 1], law, materials: None }];
+    let rules = vec![ContactRule {
+        name: "floor".to_owned(),
+        parts: vec![0, 1],
+        groups: Vec::new(),
+        law,
+        materials: None,
+    }];
     let set = ContactSet { parts, rules };
     let above = Motion::translation(Vector3::new(0.0, 0.0, 0.099));
     let at = Kinematics {
