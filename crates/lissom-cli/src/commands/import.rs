@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use lissom::exchange::import::{
     ChosenStart, Freedom, Motors, Options, Pose, Root, Unsupported, chosen_starts, from_file, model_text,
+    omissions,
 };
 use lissom::model::files;
 use lissom::{Diagnose, Diagnostic, Model, SessionError};
@@ -37,7 +38,7 @@ pub(super) struct Import {
     /// Write an input for each motor, and its torque or force within the limits of the description.
     #[arg(long)]
     motors: bool,
-    /// Omit stops at limits, damping and friction, mimic joints, or what a model cannot express; several are separated by
+    /// Omit stops at limits, damping and friction, mimic joints, contacts, or what a model cannot express; several are separated by
     /// commas.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     without: Vec<Part>,
@@ -49,6 +50,7 @@ enum Part {
     Limits,
     Friction,
     Mimic,
+    Contacts,
     Unsupported,
 }
 
@@ -84,6 +86,7 @@ impl Import {
             limits: !self.without.contains(&Part::Limits),
             friction: !self.without.contains(&Part::Friction),
             mimic: !self.without.contains(&Part::Mimic),
+            contacts: !self.without.contains(&Part::Contacts),
             motors: if self.motors { Motors::Written } else { Motors::Omitted },
             unsupported: if self.without.contains(&Part::Unsupported) {
                 Unsupported::LeftOut
@@ -101,10 +104,10 @@ impl Import {
         files::write(&out, model.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
         let moving =
             robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();
-        let left_out =
-            robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone());
-        let left_out: String =
-            left_out.flat_map(|what| ["  omitted: ".to_owned(), what, "\n".to_owned()]).collect();
+        let left_out: String = omissions(&robot, options)
+            .into_iter()
+            .flat_map(|what| ["  omitted: ".to_owned(), what, "\n".to_owned()])
+            .collect();
         let base = &robot.links[0].name;
         let root = match options.root {
             Root::Floating if !self.floating => {

@@ -20,6 +20,7 @@ const BARE: Options = Options {
     limits: false,
     friction: false,
     mimic: false,
+    contacts: false,
     motors: Motors::Omitted,
     unsupported: Unsupported::Refused,
 };

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use lissom::exchange::import::{
-    LinkInertia, Options, Pose, Robot, Root, Unsupported, from_description, model_text,
+    LinkInertia, Options, Pose, Robot, Root, Unsupported, from_description, model_text, omissions,
 };
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 
@@ -20,12 +20,13 @@ fn described(text: &str) -> Robot {
     from_description(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// The model at values and rates of joints.
+/// The model at values and rates of joints, without contacts.
 fn model(robot: &Robot, values: &[(&str, f64)], rates: &[(&str, f64)]) -> String {
     let by_name =
         |all: &[(&str, f64)]| all.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     let pose = Pose { values: by_name(values), rates: by_name(rates), ..Pose::default() };
-    model_text(robot, &pose, Options::default()).unwrap_or_else(|error| panic!("{error}"))
+    let options = Options { contacts: false, ..Options::default() };
+    model_text(robot, &pose, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Accelerations of the coordinates of a joint at the start.
@@ -279,7 +280,8 @@ fn balls_hold_and_free_bodies_fall() {
            diaginertia='0.1 0.1 0.1'/></body></body>
          <body name='stone' pos='3 0 0'><freejoint/><geom type='box' size='0.1 0.1 0.1'/></body></worldbody></mujoco>",
     );
-    assert!(robot.left_out.iter().any(|what| what.contains("contacts")), "{:?}", robot.left_out);
+    let without = omissions(&robot, Options { contacts: false, ..Options::default() });
+    assert!(without.iter().any(|what| what.contains("contacts")), "{without:?}");
     let text = model(&robot, &[], &[])
         + "\n[outputs.bob]\nkind = \"acceleration\"\nof = \"bob\"\n[outputs.stone]\nkind = \"position\"\nof = \"stone\"\n";
     let record = run(&text, &[("analysis.scheme", "radau-iia")]);
@@ -321,11 +323,11 @@ fn what_cannot_be_said_is_reported() {
     for (text, words) in [
         ("<sdf/>".to_owned(), "neither URDF nor MJCF"),
         (body("<joint/>"), "link `b` moves, but neither it"),
-        (body("<joint/><geom type='mesh' mesh='a'/>"), "mass of a mesh"),
+        (body("<joint/><geom type='mesh' mesh='a'/>"), "there is no <mesh> `a`"),
         (body(&format!("<joint type='hing'/>{mass}")), "`hing`"),
         (body(&format!("<joint axis='0 0 0'/>{mass}")), "no direction"),
         (body(&format!("<joint dampng='1'/>{mass}")), "`dampng` is not supported"),
-        (body(&format!("<joint type='ball' damping='1'/>{mass}")), "--without friction"),
+        (body(&format!("<joint type='ball' frictionloss='1'/>{mass}")), "--without friction"),
         (body(&format!("<joint type='ball' range='0 1'/>{mass}")), "--without limits"),
         (body(&format!("<joint range='3 1'/>{mass}")), "is above"),
         (body(&format!("<joint springdamper='1 1'/>{mass}")), "springdamper"),
@@ -340,9 +342,9 @@ fn what_cannot_be_said_is_reported() {
         (format!("<mujoco><option density='1.2'/>{}", &body(mass)[8..]), "`density` of <option>"),
         (format!("<mujoco><include file='a.xml'/>{}", &body(mass)[8..]), "`a.xml` is not read"),
         (
-            "<mujoco><worldbody><body gravcomp='1'><joint/><geom size='1'/></body></worldbody></mujoco>"
+            "<mujoco><worldbody><body><joint/><geom size='1' adhesion='2'/></body></worldbody></mujoco>"
                 .to_owned(),
-            "weight of body `body1`",
+            "the adhesion of <geom>",
         ),
         (
             body(mass).replace("</mujoco>", "<tendon><fixed name='t' stiffness='3'/></tendon></mujoco>"),

@@ -6,6 +6,7 @@ mod import;
 mod import_chains;
 mod import_faults;
 mod mjcf;
+mod mjcf_scenes;
 mod prescribed_motion;
 mod rolling;
 mod starts;

@@ -19,7 +19,13 @@ pub(super) struct Placed {
 }
 
 /// A single joint between two bodies.
-pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed, [base, tip]: [&str; 2]) {
+pub(super) fn write_joint(
+    text: &mut String,
+    joint: &RobotJoint,
+    place: &Placed,
+    [base, tip]: [&str; 2],
+    options: Options,
+) {
     let name = &place.own;
     let (kind, key) = match joint.freedom {
         Freedom::Rotation => ("revolute", "angle"),
@@ -31,12 +37,21 @@ pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed,
                 "\n[joints.{name}]\nkind = \"spherical\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {}\n",
                 list(&place.at)
             );
-            if joint.spring.stiffness > 0.0 {
-                let k = joint.spring.stiffness;
+            let resisting = |value: f64, key: &str| {
+                if value > 0.0 {
+                    format!("{key} = [0, 0, 0, {value:?}, {value:?}, {value:?}]\n")
+                } else {
+                    String::new()
+                }
+            };
+            let damping = if options.friction { joint.damping } else { 0.0 };
+            let resistance = resisting(joint.spring.stiffness, "stiffness") + &resisting(damping, "damping");
+            if !resistance.is_empty() {
+                let word = if joint.spring.stiffness > 0.0 { "stiffness" } else { "damping" };
                 let _ = write!(
                     text,
-                    "\n[springs.{}_stiffness]\nkind = \"bushing\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat_base = {at}\n\
-                     at_tip = {at}\nstiffness = [0, 0, 0, {k:?}, {k:?}, {k:?}]\n",
+                    "\n[springs.{}_{word}]\nkind = \"bushing\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat_base = {at}\n\
+                     at_tip = {at}\n{resistance}",
                     place.own,
                     at = list(&place.at)
                 );

@@ -31,14 +31,50 @@ pub(super) fn without_mass(
     bodies: &[usize],
     has_followers: bool,
 ) -> Vec<Massless> {
-    let columns: Vec<(usize, Column)> = robot
-        .joints
-        .iter()
-        .enumerate()
-        .flat_map(|(index, joint)| columns(joint.freedom).into_iter().map(move |column| (index, column)))
-        .collect();
     let mut into = vec![None; robot.links.len()];
     robot.joints.iter().enumerate().for_each(|(index, joint)| into[joint.child] = Some(index));
+    // Joints of different trees on the root move nothing of each other.
+    let mut tree: Vec<usize> = Vec::with_capacity(robot.joints.len());
+    for (index, joint) in robot.joints.iter().enumerate() {
+        tree.push(into[joint.parent].map_or(index, |parent: usize| tree[parent]));
+    }
+    for (index, joint) in robot.joints.iter().enumerate() {
+        if let Some((leader, _, _)) = joint.follows.as_ref().filter(|_| has_followers)
+            && let Some(leader) = robot.joints.iter().position(|other| other.name == *leader)
+        {
+            let [one, other] = [tree[index], tree[leader]];
+            tree.iter_mut().filter(|own| **own == one).for_each(|own| *own = other);
+        }
+    }
+    let mut trees = std::collections::BTreeMap::<usize, (Vec<usize>, Vec<usize>)>::new();
+    for (index, own) in tree.iter().enumerate() {
+        trees.entry(*own).or_default().0.push(index);
+    }
+    for &body in bodies {
+        if let Some((_, own)) = into[body].and_then(|joint| trees.get_mut(&tree[joint])) {
+            own.push(body);
+        }
+    }
+    let of_tree = |(joints, bodies): &(Vec<usize>, Vec<usize>)| {
+        of_joints(robot, frames, (joints, &into), bodies, has_followers)
+    };
+    trees.values().flat_map(of_tree).collect()
+}
+
+/// Combinations of the rates of some joints, which alone move `bodies`.
+fn of_joints(
+    robot: &Robot,
+    frames: &[Motion],
+    (joints, into): (&[usize], &[Option<usize>]),
+    bodies: &[usize],
+    has_followers: bool,
+) -> Vec<Massless> {
+    let columns: Vec<(usize, Column)> = joints
+        .iter()
+        .flat_map(|&index| {
+            columns(robot.joints[index].freedom).into_iter().map(move |column| (index, column))
+        })
+        .collect();
     let mut rows: Vec<Vec<f64>> = Vec::new();
     for &body in bodies {
         let (mut path, mut link) = (BTreeSet::new(), body);
@@ -57,7 +93,8 @@ pub(super) fn without_mass(
     let unit = |at: usize, factor: f64| {
         columns.iter().map(move |(index, _)| if *index == at { factor } else { 0.0 })
     };
-    for (index, joint) in robot.joints.iter().enumerate() {
+    for &index in joints {
+        let joint = &robot.joints[index];
         if joint.armature > 0.0 {
             rows.push(unit(index, 1.0).collect());
         }

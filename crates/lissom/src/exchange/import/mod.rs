@@ -2,6 +2,7 @@
 //! A new format is one file that builds a [`Robot`], and a branch in [`from_description`]. [`from_model`] builds a [`Robot`] from
 //! a model, which [`to_urdf`] writes.
 
+mod contacts;
 mod from_model;
 mod include;
 mod joint_text;
@@ -21,9 +22,10 @@ use std::path::Path;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
 
+pub use contacts::{ContactPair, ContactRules, Touch, TouchLaw};
 pub use from_model::{ModelRobot, from_model};
 pub use mjcf::from_mjcf;
-pub use model_text::{Options, Root, Unsupported, model_text};
+pub use model_text::{Options, Root, Unsupported, model_text, omissions};
 pub use motors::{Motor, Motors};
 pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
@@ -35,7 +37,11 @@ pub use visuals::{Visual, VisualShape};
 /// # Errors
 /// If a file cannot be read, or as for [`from_description`].
 pub fn from_file(path: &Path) -> Result<Robot, ImportError> {
-    from_description(&include::with_included(path)?)
+    let text = include::with_included(path)?;
+    match xml::root_tag(&text)?.as_str() {
+        "mujoco" => mjcf::in_folder(&text, Some(path.parent().unwrap_or(Path::new("")))),
+        _ => from_description(&text),
+    }
 }
 
 /// Reads a robot from a URDF or MJCF text, distinguished by the root element.
@@ -79,6 +85,14 @@ pub struct Robot {
     pub joints: Vec<RobotJoint>,
     /// Joints that close loops.
     pub closures: Vec<Closure>,
+    /// Ropes over points of links.
+    pub ropes: Vec<Rope>,
+    /// Tendons that act on sums of joint coordinates.
+    pub tendons: Vec<JointTendon>,
+    /// How links touch each other, besides [`Visual::touch`] of their shapes.
+    pub contacts: ContactRules,
+    /// Links whose weight is compensated.
+    pub compensations: Vec<WeightCompensation>,
     /// Motors, which are omitted unless they are requested.
     pub motors: Vec<Motor>,
     /// Contents of the description that are omitted from the model, one sentence each.
@@ -130,6 +144,43 @@ pub struct Closure {
     pub source: String,
 }
 
+/// A rope over points of links, which pulls where it is longer than its free length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rope {
+    /// Name of the rope.
+    pub name: String,
+    /// Points over which it passes: the link, and the point in its frame [m].
+    pub along: Vec<(usize, Vector3)>,
+    /// Free length [m].
+    pub length: f64,
+    /// Stiffness [N/m]; none for the stiffness of stops.
+    pub stiffness: Option<f64>,
+}
+
+/// A tendon whose length is a sum of joint coordinates, with a spring and limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointTendon {
+    /// Name of the tendon.
+    pub name: String,
+    /// Joints by index, with their factors [1, m].
+    pub terms: Vec<(usize, f64)>,
+    /// Lengths at which its stops begin.
+    pub range: Option<[f64; 2]>,
+    /// Stiffness of its spring.
+    pub stiffness: f64,
+    /// Lengths between which the spring is free of force.
+    pub rest: [f64; 2],
+}
+
+/// A force that compensates the weight of a link, at its centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeightCompensation {
+    /// Index of the link.
+    pub link: usize,
+    /// Share of the weight that is compensated.
+    pub share: f64,
+}
+
 /// A link with its inertia; none for a frame without mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
@@ -143,12 +194,14 @@ pub struct Link {
     pub collisions: Vec<Visual>,
     /// Location of the link in the description, such as `line 3`; may be empty.
     pub source: String,
+    /// Whether it is only between two joints of one body.
+    pub is_between: bool,
 }
 
 impl Link {
     /// A link that is not drawn.
     fn new(name: String, inertia: Option<LinkInertia>, source: String) -> Self {
-        Self { name, inertia, visuals: Vec::new(), collisions: Vec::new(), source }
+        Self { name, inertia, visuals: Vec::new(), collisions: Vec::new(), source, is_between: false }
     }
 }
 

@@ -12,6 +12,7 @@ use std::fmt::Write;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
 
+use super::contacts::{Contacts, TouchingBody};
 use super::joint_text::{
     Placed, write_armature, write_closure, write_follower, write_joint, write_resistance,
 };
@@ -41,6 +42,7 @@ pub enum Unsupported {
 }
 
 /// Contents of the model file.
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command by itself")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Treatment of the root.
@@ -51,6 +53,8 @@ pub struct Options {
     pub friction: bool,
     /// Whether mimic joints follow others.
     pub mimic: bool,
+    /// Whether bodies touch each other.
+    pub contacts: bool,
     /// Treatment of motors.
     pub motors: Motors,
     /// Treatment of elements that act on the robot and cannot be modelled.
@@ -64,6 +68,7 @@ impl Default for Options {
             limits: true,
             friction: true,
             mimic: true,
+            contacts: true,
             motors: Motors::Omitted,
             unsupported: Unsupported::Refused,
         }
@@ -87,6 +92,8 @@ struct Group {
     mass: Option<LinkInertia>,
     /// Entries of its shape; an empty one draws nothing. None for a link without visuals.
     shapes: Option<Vec<String>>,
+    /// Its links.
+    links: Vec<usize>,
 }
 
 impl Group {
@@ -113,7 +120,7 @@ impl Group {
 /// exceed a range.
 pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String, ImportError> {
     let start = Start::of(robot, pose, options);
-    let (groups, number, frames) = grouped(robot, &start.pose, options);
+    let (mut groups, number, frames) = grouped(robot, &start.pose, options);
     let mut obstacles = robot.obstacles.clone();
     obstacles.extend(unsupported(robot, options));
     obstacles.extend(start.obstacles.iter().cloned());
@@ -126,7 +133,13 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
         return Err(ImportError::of(&obstacles));
     }
     let names = Names::of(robot);
-    let mut text = header(robot, options, &start);
+    let contacts = if options.contacts {
+        Contacts::of(robot, &touching_bodies(robot, &groups, &number))
+    } else {
+        Contacts::none(robot)
+    };
+    draw(robot, &mut groups, &frames, &contacts);
+    let mut text = header(robot, options, &start, &contacts);
     for group in &groups {
         write_group(&mut text, group, &names.links[group.link], &robot.links[group.link].name);
     }
@@ -146,7 +159,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
         })
         .collect();
     for (joint, place) in robot.joints.iter().zip(&placed) {
-        write_joint(&mut text, joint, place, [group_name(joint.parent), group_name(joint.child)]);
+        write_joint(&mut text, joint, place, [group_name(joint.parent), group_name(joint.child)], options);
     }
     for (closure, name) in robot.closures.iter().zip(&names.closures) {
         let [base, tip] = closure.links.map(group_name);
@@ -168,7 +181,11 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     if options.motors == Motors::Written {
         write_motors(&mut text, robot, &placed);
     }
-    text.push_str(&footer(robot, &placed));
+    write_tendons(&mut text, robot, &placed, options);
+    write_ropes(&mut text, robot, &frames, &group_name);
+    write_compensations(&mut text, robot, &frames, &groups, &number);
+    text.push_str(&contacts.text);
+    text.push_str(&footer(robot, &placed, &contacts));
     Ok(text)
 }
 
@@ -191,20 +208,58 @@ fn grouped(robot: &Robot, pose: &Pose, options: Options) -> (Vec<Group>, Vec<usi
                 twist: twists[link],
                 mass: None,
                 shapes: None,
+                links: Vec::new(),
             });
         }
         number[link] = number[group_of[link]];
         let group = &mut groups[number[link]];
         let offset = frames[link].relative_to(&frames[group.link]);
-        if !own.visuals.is_empty() {
-            let drawn = own.drawn().iter().filter_map(|visual| visual.text(&offset));
-            group.shapes.get_or_insert_default().extend(drawn);
-        }
+        group.links.push(link);
         if let Some(mass) = &own.inertia {
             group.mass = Some(together(group.mass.as_ref(), &carried(mass, &offset)));
         }
     }
     (groups, number, frames)
+}
+
+/// The bodies of a model as far as they touch each other. Links between several joints of one body are part of none.
+fn touching_bodies(robot: &Robot, groups: &[Group], number: &[usize]) -> Vec<TouchingBody> {
+    let mut into = vec![None; robot.links.len()];
+    robot.joints.iter().for_each(|joint| into[joint.child] = Some(joint.parent));
+    let parent_of = |group: &Group| {
+        let mut link = into[group.link]?;
+        while robot.links[link].is_between {
+            link = into[link]?;
+        }
+        Some(number[link])
+    };
+    let of = |group: &Group| TouchingBody {
+        name: group.name.clone(),
+        is_ground: group.name == "ground",
+        links: group.links.clone(),
+        parent: parent_of(group),
+    };
+    groups.iter().map(of).collect()
+}
+
+/// Adds the shapes of all bodies.
+fn draw(robot: &Robot, groups: &mut [Group], frames: &[Motion], contacts: &Contacts) {
+    for group in groups {
+        for &link in &group.links {
+            let own = &robot.links[link];
+            if own.visuals.is_empty() {
+                continue;
+            }
+            let offset = frames[link].relative_to(&frames[group.link]);
+            let is_of_visuals = std::ptr::eq(own.drawn().as_ptr(), own.visuals.as_ptr());
+            let touches = |index: usize| {
+                !contacts.are_there() || is_of_visuals && contacts.touches[link].get(index) == Some(&true)
+            };
+            let drawn = own.drawn().iter().enumerate();
+            let drawn = drawn.filter_map(|(index, visual)| visual.text(&offset, touches(index)));
+            group.shapes.get_or_insert_default().extend(drawn);
+        }
+    }
 }
 
 /// Joints that move no mass, and masses without inertia.
@@ -310,19 +365,31 @@ fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
             )
         }));
     }
+    if robot.obstacles.is_empty() && obstacles.is_empty() && robot.is_root_the_world && is_at_rest(robot) {
+        obstacles.push("no body of the description moves: there is nothing to simulate".to_owned());
+    }
     for joint in robot.joints.iter().filter(|joint| !joint.moves()) {
         let name = format!("{}joint `{}`", prefix(&joint.source), joint.name);
+        if options.unsupported == Unsupported::LeftOut {
+            continue;
+        }
         if options.limits && joint.range.is_some() {
             obstacles
                 .push(format!("{name}: limits of a ball joint are not supported: use `--without limits`"));
         }
-        if options.friction && (joint.damping > 0.0 || joint.friction > 0.0) {
+        let is_damped = joint.damping > 0.0 && joint.freedom != Freedom::Ball;
+        if options.friction && (is_damped || joint.friction > 0.0) {
             obstacles.push(format!(
-                "{name}: damping and friction of ball and free joints are not supported: use `--without friction`"
+                "{name}: friction of ball joints and damping of free joints are not supported: use `--without friction`"
             ));
         }
     }
     obstacles
+}
+
+/// Whether all links are fixed.
+fn is_at_rest(robot: &Robot) -> bool {
+    robot.joints.iter().all(|joint| joint.freedom == Freedom::Fixed)
 }
 
 /// Initial frames and twists of all links, and the link at the root of the group of each.
@@ -412,7 +479,7 @@ fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     free
 }
 
-fn header(robot: &Robot, options: Options, start: &Start) -> String {
+fn header(robot: &Robot, options: Options, start: &Start, contacts: &Contacts) -> String {
     let title = robot.name.replace(char::is_control, " ").replace('\\', "\\\\").replace('"', "\\\"");
     let mut text = String::new();
     // Writing to a string cannot fail.
@@ -425,26 +492,162 @@ fn header(robot: &Robot, options: Options, start: &Start) -> String {
     if options.limits {
         text.push_str("\n# Stiffness of stops [N m/rad, N/m], which the description does not specify.");
     }
-    for what in robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone())
-    {
+    for what in omissions(robot, options).into_iter().chain(contacts.notes.iter().cloned()) {
         let _ = write!(text, "\n# Omitted: {}.", what.escape_debug());
     }
     for chosen in &start.chosen {
         let _ = write!(text, "\n# {}.", chosen.sentence().escape_debug());
     }
     text.push('\n');
-    if options.limits && robot.joints.iter().any(|joint| joint.range.is_some()) {
+    let has_stops = options.limits && robot.joints.iter().any(|joint| joint.range.is_some());
+    let has_stops = has_stops || options.limits && robot.tendons.iter().any(|own| own.range.is_some());
+    if has_stops || robot.ropes.iter().any(|rope| rope.stiffness.is_none()) {
         let _ = write!(text, "\n[parameters]\nstop_stiffness = {STOPS:?}\n");
     }
     text
 }
 
-fn footer(robot: &Robot, placed: &[Placed]) -> String {
+fn footer(robot: &Robot, placed: &[Placed], contacts: &Contacts) -> String {
     let mut text = String::new();
     for place in robot.joints.iter().zip(placed).filter(|(joint, _)| joint.moves()).map(|(_, place)| place) {
         let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.own);
     }
-    text + "\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\nend = 1.0\n"
+    text.push_str("\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\n");
+    if contacts.are_there() {
+        let _ = write!(text, "scheme = \"backward-euler\"\nstep = {:?}\n", robot.contact_step());
+    }
+    text + "end = 1.0\n"
+}
+
+/// Tendons over joint coordinates: the force of each is a signal, from which the torques and forces of its joints follow.
+fn write_tendons(text: &mut String, robot: &Robot, placed: &[Placed], options: Options) {
+    let coordinate = |joint: usize| match robot.joints[joint].freedom {
+        Freedom::Rotation => format!("{}.angle", placed[joint].own),
+        _ => format!("{}.displacement", placed[joint].own),
+    };
+    let beyond = |length: &str, [low, high]: [f64; 2]| {
+        if low == high {
+            format!("({length} - {low:?})")
+        } else {
+            format!("({length} - clamp({length}, {low:?}, {high:?}))")
+        }
+    };
+    let mut taken: BTreeSet<String> = placed.iter().map(|own| own.own.clone()).collect();
+    let (mut signals, mut loads) = (String::new(), String::new());
+    for tendon in &robot.tendons {
+        let terms: Vec<String> =
+            tendon.terms.iter().map(|(joint, factor)| format!("{factor:?}*{}", coordinate(*joint))).collect();
+        let length = format!("({})", terms.join(" + "));
+        let mut forces = Vec::new();
+        if let Some(range) = tendon.range.filter(|_| options.limits) {
+            forces.push(format!("-stop_stiffness*{}", beyond(&length, range)));
+        }
+        if tendon.stiffness > 0.0 {
+            forces.push(format!("-{:?}*{}", tendon.stiffness, beyond(&length, tendon.rest)));
+        }
+        if forces.is_empty() {
+            continue;
+        }
+        let name = free_name(&format!("{}_force", tendon.name), &mut taken);
+        // Writing to a string cannot fail.
+        let _ = writeln!(signals, "{name} = \"{}\"", forces.join(" "));
+        for (joint, factor) in &tendon.terms {
+            let (kind, key) = match robot.joints[*joint].freedom {
+                Freedom::Rotation => ("joint_torque", "torque"),
+                _ => ("joint_force", "force"),
+            };
+            let own = &placed[*joint].own;
+            let load = free_name(&format!("{name}_{own}"), &mut taken);
+            let _ = write!(
+                loads,
+                "\n[loads.{load}]\nkind = \"{kind}\"\njoint = \"{own}\"\n{key} = \"{factor:?}*{name}\"\n"
+            );
+        }
+    }
+    if !signals.is_empty() {
+        let _ = write!(text, "\n# Tendons over joint coordinates\n[signals]\n{signals}{loads}");
+    }
+}
+
+/// Ropes over points of bodies.
+fn write_ropes<'a>(
+    text: &mut String,
+    robot: &Robot,
+    frames: &[Motion],
+    group_name: &impl Fn(usize) -> &'a str,
+) {
+    let mut taken = BTreeSet::new();
+    for rope in &robot.ropes {
+        let name = free_name(&rope.name, &mut taken);
+        let points: Vec<String> = rope
+            .along
+            .iter()
+            .map(|(link, point)| {
+                let at = frames[*link].transform_point(point);
+                format!("{{ on = \"{}\", at = {} }}", group_name(*link), list(&at))
+            })
+            .collect();
+        let stiffness = rope.stiffness.map_or("\"stop_stiffness\"".to_owned(), |own| format!("{own:?}"));
+        let _ = write!(
+            text,
+            "\n[springs.{name}]\nkind = \"rope\"\nalong = [\n    {},\n]\nlength = {:?}\nstiffness = {stiffness}\n",
+            points.join(",\n    "),
+            rope.length
+        );
+    }
+}
+
+/// Forces that compensate weights.
+fn write_compensations(
+    text: &mut String,
+    robot: &Robot,
+    frames: &[Motion],
+    groups: &[Group],
+    number: &[usize],
+) {
+    let mut taken = BTreeSet::new();
+    for own in &robot.compensations {
+        let link = &robot.links[own.link];
+        let group = &groups[number[own.link]];
+        let Some(inertia) = link.inertia.filter(|inertia| inertia.mass > 0.0 && group.name != "ground")
+        else {
+            continue;
+        };
+        let name = free_name(&format!("{}_weight", link.name), &mut taken);
+        let _ = write!(
+            text,
+            "\n[loads.{name}]\nkind = \"force\"\non = \"{}\"\nat = {}\nvector = {}\n",
+            group.name,
+            list(&frames[own.link].transform_point(&inertia.centre)),
+            list(&(-own.share * inertia.mass * robot.gravity))
+        );
+    }
+}
+
+/// What is omitted from the model of a robot, one sentence each; what its contacts cannot express is only in the model.
+pub fn omissions(robot: &Robot, options: Options) -> Vec<String> {
+    let mut all = robot.left_out.clone();
+    if options.motors == Motors::Omitted && robot.is_root_the_world {
+        match robot.motors.len() {
+            0 => {}
+            1 => all.push("the command of 1 motor: `--motors` writes an input".to_owned()),
+            count => all.push(format!("the commands of {count} motors: `--motors` writes inputs")),
+        }
+    }
+    let is_omitted = |joint: &&super::RobotJoint| {
+        !joint.moves() && (joint.friction > 0.0 || joint.damping > 0.0 && joint.freedom == Freedom::Floating)
+    };
+    let count = robot.joints.iter().filter(is_omitted).count();
+    if count > 0 && options.friction && options.unsupported == Unsupported::LeftOut {
+        all.push(format!("friction of ball joints and damping of free joints, of {count} joints"));
+    }
+    let touches = |link: &super::Link| link.visuals.iter().any(|own| own.touch.is_some());
+    if !options.contacts && robot.links.iter().any(touches) {
+        all.push("contacts: bodies pass through each other".to_owned());
+    }
+    all.extend(robot.meshes_left_out());
+    all.extend(robot.unsupported.iter().cloned());
+    all
 }
 
 /// Numbers for the model file, without the sign of negative zeros.

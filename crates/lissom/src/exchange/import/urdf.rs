@@ -59,6 +59,10 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         is_root_the_world: false,
         joints,
         closures: Vec::new(),
+        ropes: Vec::new(),
+        tendons: Vec::new(),
+        contacts: super::ContactRules::default(),
+        compensations: Vec::new(),
         motors: Vec::new(),
         left_out,
         unsupported: Vec::new(),
@@ -266,7 +270,7 @@ fn link(node: Node<'_, '_>, obstacles: &mut Vec<String>) -> Result<Link, ImportE
         keep(error);
         None
     });
-    Ok(Link { name, inertia, visuals, collisions, source: location(node) })
+    Ok(Link { visuals, collisions, ..Link::new(name, inertia, location(node)) })
 }
 
 fn inertia(node: Node<'_, '_>, name: &str) -> Result<Option<LinkInertia>, ImportError> {
@@ -325,14 +329,14 @@ fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError>
         VisualShape::Box(sides) => sides.iter().copied().collect(),
         VisualShape::Cylinder { radius, length } => vec![*radius, *length],
         VisualShape::Sphere(radius) => vec![*radius],
-        VisualShape::Mesh { .. } => Vec::new(),
+        _ => Vec::new(),
     };
     if lengths.iter().any(|length| *length <= 0.0) {
         return Err(ImportError::new(format!(
             "link `{link}`: the shape of its <visual> has a length that is not positive"
         )));
     }
-    Ok(Some(Visual { shape, origin: origin(node)? }))
+    Ok(Some(Visual { shape, origin: origin(node)?, touch: None, name: None }))
 }
 
 /// A joint; what is wrong with it, except its links, becomes an obstacle.

@@ -7,7 +7,7 @@ use lissom_model::toml_text::quoted;
 use lissom_motion::{Motion, Vector3};
 
 use super::model_text::list;
-use super::{Link, Robot};
+use super::{Link, Robot, Touch};
 
 /// Formats of meshes that can be drawn.
 const DRAWN: [&str; 3] = ["stl", "gltf", "glb"];
@@ -19,6 +19,10 @@ pub struct Visual {
     pub shape: VisualShape,
     /// Frame of the shape in that of the link.
     pub origin: Motion,
+    /// How the solid touches others; none if it is only drawn.
+    pub touch: Option<Touch>,
+    /// Name of the shape, if the description has names.
+    pub name: Option<String>,
 }
 
 /// The shape of a visual.
@@ -35,6 +39,19 @@ pub enum VisualShape {
     },
     /// A sphere of this radius [m].
     Sphere(f64),
+    /// A cylinder along z with half spheres as ends [m].
+    Capsule {
+        /// Radius.
+        radius: f64,
+        /// Length between the centres of its ends.
+        length: f64,
+    },
+    /// An ellipsoid with these semi-axes [m].
+    Ellipsoid(Vector3),
+    /// The half-space below z = 0.
+    Plane,
+    /// The convex hull of these points [m].
+    Hull(Vec<Vector3>),
     /// A file with triangles.
     Mesh {
         /// The file as the description names it.
@@ -56,13 +73,22 @@ impl Visual {
     }
 
     /// The entry of a body's `shape`, in the frame of the body; none for a mesh that is not drawn.
-    pub(super) fn text(&self, link_in_body: &Motion) -> Option<String> {
+    pub(super) fn text(&self, link_in_body: &Motion, touches: bool) -> Option<String> {
         let mut text = match &self.shape {
             VisualShape::Box(sides) => format!("kind = \"box\", sides = {}", list(sides)),
             VisualShape::Cylinder { radius, length } => {
                 format!("kind = \"cylinder\", radius = {radius:?}, length = {length:?}")
             }
             VisualShape::Sphere(radius) => format!("kind = \"sphere\", radius = {radius:?}"),
+            VisualShape::Capsule { radius, length } => {
+                format!("kind = \"capsule\", radius = {radius:?}, length = {length:?}")
+            }
+            VisualShape::Ellipsoid(axes) => format!("kind = \"ellipsoid\", semi_axes = {}", list(axes)),
+            VisualShape::Plane => "kind = \"plane\"".to_owned(),
+            VisualShape::Hull(points) => {
+                let points: Vec<String> = points.iter().map(list).collect();
+                format!("kind = \"hull\", points = [{}]", points.join(", "))
+            }
             VisualShape::Mesh { scale, path, .. } => {
                 let file = quoted(path.as_ref()?);
                 format!("kind = \"mesh\", file = {file}, scale = {}", list(scale))
@@ -72,8 +98,11 @@ impl Visual {
         // Writing to a string cannot fail.
         let _ = write!(text, ", position = {}", list(&frame.position));
         let rotation = frame.rotation.logarithm();
-        if rotation != Vector3::zeros() {
+        if rotation != Vector3::zeros() && !matches!(self.shape, VisualShape::Sphere(_)) {
             let _ = write!(text, ", rotation = {}", list(&rotation));
+        }
+        if !touches {
+            text.push_str(", touches = false");
         }
         Some(format!("{{ {text} }}"))
     }

@@ -7,7 +7,7 @@ use roxmltree::{Document, Node};
 use super::ImportError;
 
 /// Largest number of elements that contain each other one in the other: the readers are recursive.
-const MAX_DEPTH: usize = 300;
+pub(super) const MAX_DEPTH: usize = 300;
 
 /// Parses a text.
 ///

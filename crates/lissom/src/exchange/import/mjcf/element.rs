@@ -7,7 +7,7 @@ use roxmltree::Node;
 use super::super::ImportError;
 use super::super::xml::{finite_numbers, location};
 
-type Attributes = BTreeMap<String, String>;
+pub(super) type Attributes = BTreeMap<String, String>;
 
 /// Default attributes by class and tag; a class inherits those of its enclosing classes.
 pub(super) struct Classes {
@@ -54,29 +54,26 @@ impl Classes {
         Ok(())
     }
 
-    /// An element with the defaults of its own class, or of `around`, the class of the enclosing bodies.
-    pub(super) fn element(&self, node: Node<'_, '_>, around: Option<&str>) -> Result<Element, ImportError> {
-        let tag = node.tag_name().name();
-        let own = node.attribute("class");
-        let class = own.or(around).unwrap_or(&self.main);
-        let mut attributes = match self.by_name.get(class) {
-            Some(by_tag) => by_tag.get(tag).cloned().unwrap_or_default(),
-            None if class == self.main => Attributes::new(),
-            None => {
-                let message = format!("{}: there is no default class `{class}`", location(node));
-                return Err(ImportError::new(message));
-            }
-        };
-        attributes.extend(node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())));
-        Ok(Element { tag: tag.to_owned(), location: location(node), attributes })
+    /// The default attributes of elements `tag` in a class.
+    ///
+    /// # Errors
+    /// If there is no such class.
+    pub(super) fn of(&self, tag: &str, class: Option<&str>) -> Result<Attributes, String> {
+        let class = class.unwrap_or(&self.main);
+        match self.by_name.get(class) {
+            Some(by_tag) => Ok(by_tag.get(tag).cloned().unwrap_or_default()),
+            None if class == self.main => Ok(Attributes::new()),
+            None => Err(format!("there is no default class `{class}`")),
+        }
     }
 }
 
 /// An element.
+#[derive(Clone)]
 pub(super) struct Element {
-    tag: String,
-    location: String,
-    attributes: Attributes,
+    pub(super) tag: String,
+    pub(super) location: String,
+    pub(super) attributes: Attributes,
 }
 
 impl Element {
@@ -85,6 +82,19 @@ impl Element {
         let attributes =
             node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())).collect();
         Self { tag: node.tag_name().name().to_owned(), location: location(node), attributes }
+    }
+
+    /// An element without attributes, which is nowhere in a text.
+    pub(super) fn empty(tag: &str) -> Self {
+        Self { tag: tag.to_owned(), location: String::new(), attributes: Attributes::new() }
+    }
+
+    pub(super) fn set(&mut self, key: &str, value: String) {
+        self.attributes.insert(key.to_owned(), value);
+    }
+
+    pub(super) fn tag(&self) -> &str {
+        &self.tag
     }
 
     /// Elements of one tag as one: later attributes replace earlier ones.

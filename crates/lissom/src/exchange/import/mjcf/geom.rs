@@ -1,12 +1,16 @@
-//! Masses of the shapes of MJCF, homogeneous solids.
+//! Shapes of MJCF: homogeneous solids with their masses, what is drawn of them, and how they touch others.
 
 use std::f64::consts::PI;
+use std::rc::Rc;
 
 use lissom_motion::{Matrix3, Motion, Vector3};
 
-use super::super::{ImportError, LinkInertia, from_z};
+use super::super::{ImportError, LinkInertia, Visual, VisualShape, from_z};
 use super::element::Element;
-use super::frame::{self, Angles};
+use super::frame;
+use super::mesh::{Density, Meshes};
+use super::touching;
+use super::tree::{Node, Settings};
 
 const USED: &[&str] = &[
     "type",
@@ -18,6 +22,17 @@ const USED: &[&str] = &[
     "group",
     "contype",
     "conaffinity",
+    "condim",
+    "priority",
+    "friction",
+    "solmix",
+    "solref",
+    "solimp",
+    "margin",
+    "gap",
+    "mesh",
+    "surfacevel",
+    "adhesion",
     "pos",
     "quat",
     "axisangle",
@@ -25,70 +40,73 @@ const USED: &[&str] = &[
     "zaxis",
     "euler",
 ];
-const HARMLESS: &[&str] = &[
-    "condim",
-    "priority",
-    "material",
-    "rgba",
-    "friction",
-    "solmix",
-    "solref",
-    "solimp",
-    "margin",
-    "gap",
-    "hfield",
-    "mesh",
-    "fitscale",
-    "fluidshape",
-    "fluidcoef",
-    "user",
-];
+const HARMLESS: &[&str] =
+    &["material", "rgba", "hfield", "fitscale", "fluidshape", "fluidcoef", "user", "dclass"];
 /// Default density [kg/m³].
 const DENSITY: f64 = 1000.0;
+/// Largest group that is drawn unless the viewer is told otherwise.
+const LAST_DRAWN_GROUP: f64 = 2.0;
 
 /// A shape.
 pub(super) struct Geom {
     /// Group of the shape.
     pub(super) group: f64,
-    /// Whether it may collide with others.
-    pub(super) touches: bool,
+    /// Type of the shape.
+    pub(super) kind: String,
     element: Element,
+    settings: Rc<Settings>,
 }
 
 impl Geom {
-    pub(super) fn read(element: Element) -> Result<Self, ImportError> {
+    pub(super) fn read(node: &Node) -> Result<Self, ImportError> {
+        let element = node.element.clone();
         element.check_known(USED, HARMLESS)?;
-        let touches = element.number("contype", 1.0)? != 0.0 || element.number("conaffinity", 1.0)? != 0.0;
-        Ok(Self { group: element.number("group", 0.0)?, touches, element })
+        let kind = element.text("type").unwrap_or("sphere").to_owned();
+        if !KINDS.contains(&kind.as_str()) {
+            return Err(element.fault(format!("its type `{kind}` is unknown: {}", KINDS.join(", "))));
+        }
+        let settings = Rc::clone(&node.settings);
+        Ok(Self { group: element.number("group", 0.0)?, kind, element, settings })
+    }
+
+    /// What acts at its touches besides elasticity and friction, each in words.
+    pub(super) fn unsupported(&self) -> Result<Vec<String>, ImportError> {
+        let acts = |key: &str| -> Result<bool, ImportError> {
+            Ok(self.element.list(key)?.unwrap_or_default().iter().any(|value| *value != 0.0))
+        };
+        let words = self.element.words();
+        let moving = acts("surfacevel")?.then(|| format!("the surface of {words}, which moves along itself"));
+        let sticky = acts("adhesion")?.then(|| format!("the adhesion of {words}"));
+        Ok(moving.into_iter().chain(sticky).collect())
     }
 
     /// Mass of the shape in the axes of its body, if it has any.
     ///
     /// # Errors
-    /// If the mass is that of a mesh or of a shell.
-    pub(super) fn mass(&self, angles: &Angles) -> Result<Option<LinkInertia>, ImportError> {
-        let element = &self.element;
-        let kind = element.text("type").unwrap_or("sphere");
+    /// If the mass is that of a shell, or of a mesh that cannot be read.
+    pub(super) fn mass(&self, meshes: &mut Meshes) -> Result<Option<LinkInertia>, ImportError> {
+        let (element, kind) = (&self.element, self.kind.as_str());
         let mass = element.numbers::<1>("mass")?.map(|[mass]| mass);
         let density = element.number("density", DENSITY)?;
         if mass.is_some_and(|mass| mass < 0.0) || density < 0.0 {
             return Err(element.fault("its mass or density is negative"));
         }
-        if matches!(kind, "plane" | "hfield") || mass.unwrap_or(density) == 0.0 {
+        if matches!(kind, "plane" | "hfield" | "sdf") || mass.unwrap_or(density) == 0.0 {
             return Ok(None);
         }
-        if element.flag("shellinertia", false)? {
+        let is_shell = element.flag("shellinertia", false)?;
+        if kind == "mesh" {
+            let mesh = meshes.of_geom(element)?;
+            let wanted = mass.map_or(Density::Uniform(density), Density::Total);
+            let own = mesh.inertia(element, is_shell, wanted)?;
+            return Ok(Some(super::carried(&own, &frame::frame(element, &self.settings.angles)?)));
+        }
+        if is_shell {
             return Err(
                 element.fault("the inertia of a shell is not supported: add an <inertial> to the body")
             );
         }
-        if matches!(kind, "mesh" | "sdf") {
-            let message = format!(
-                "the mass of a {kind} is not supported: add an <inertial> to the body, or mass=\"0\" to the geom"
-            );
-            return Err(element.fault(message));
-        }
-        let (placed, sizes) = self.placed(kind, angles)?;
+        let (placed, sizes) = self.placed()?;
         let (volume, own) = solid(kind, sizes)
             .ok_or_else(|| element.fault(format!("its type `{kind}` is unknown: {}", KINDS.join(", "))))?;
         let mass = mass.unwrap_or(density * volume);
@@ -97,9 +115,60 @@ impl Geom {
         Ok(Some(LinkInertia { mass, centre: placed.position, inertia }))
     }
 
-    /// Frame and dimensions of the shape; for shapes between two points the length is along z.
-    fn placed(&self, kind: &str, angles: &Angles) -> Result<(Motion, [f64; 3]), ImportError> {
+    /// What is drawn of the shape, and how it touches others; none if it is neither.
+    pub(super) fn visual(&self, meshes: &mut Meshes) -> Result<Option<Visual>, ImportError> {
         let element = &self.element;
+        let touch = touching::of_geom(element)?;
+        if touch.is_none() && self.group > LAST_DRAWN_GROUP {
+            return Ok(None);
+        }
+        let name = element.text("name").map(str::to_owned);
+        let framed = |shape, origin| Ok(Some(Visual { shape, origin, touch, name: name.clone() }));
+        match self.kind.as_str() {
+            "plane" => {
+                return framed(VisualShape::Plane, frame::frame(element, &self.settings.angles)?);
+            }
+            "hfield" => {
+                meshes.notes.push(format!("the height field of {}: nothing touches it", element.words()));
+                return Ok(None);
+            }
+            "mesh" => {
+                let origin = frame::frame(element, &self.settings.angles)?;
+                return match meshes.of_geom(element) {
+                    Ok(mesh) => match mesh.shape(touch.is_some()) {
+                        Some(shape @ VisualShape::Hull(_)) => {
+                            meshes.note_corners(element, &mesh);
+                            framed(shape, origin)
+                        }
+                        Some(shape) => framed(shape, origin),
+                        None => Ok(None),
+                    },
+                    Err(error) => {
+                        let message = error.message;
+                        let what =
+                            if touch.is_some() { "does not touch and is not drawn" } else { "is not drawn" };
+                        meshes.notes.push(format!("a mesh that {what}: {message}"));
+                        Ok(None)
+                    }
+                };
+            }
+            _ => {}
+        }
+        let (placed, [a, b, c]) = self.placed()?;
+        let shape = match self.kind.as_str() {
+            "sphere" => VisualShape::Sphere(a),
+            "capsule" => VisualShape::Capsule { radius: a, length: 2.0 * b },
+            "cylinder" => VisualShape::Cylinder { radius: a, length: 2.0 * b },
+            "box" => VisualShape::Box(2.0 * Vector3::new(a, b, c)),
+            "ellipsoid" => VisualShape::Ellipsoid(Vector3::new(a, b, c)),
+            _ => return Ok(None),
+        };
+        framed(shape, placed)
+    }
+
+    /// Frame and dimensions of the shape; for shapes between two points the length is along z.
+    fn placed(&self) -> Result<(Motion, [f64; 3]), ImportError> {
+        let (element, kind, angles) = (&self.element, self.kind.as_str(), &self.settings.angles);
         let mut sizes = element.list("size")?.unwrap_or_default();
         let placed = match element.numbers::<6>("fromto")? {
             None => frame::frame(element, angles)?,
@@ -132,7 +201,8 @@ impl Geom {
     }
 }
 
-const KINDS: [&str; 8] = ["plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"];
+const KINDS: [&str; 9] =
+    ["plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf"];
 
 /// Volume of a solid and its inertia per mass about its own axes; dimensions are radii and half lengths.
 fn solid(kind: &str, [a, b, c]: [f64; 3]) -> Option<(f64, Vector3)> {

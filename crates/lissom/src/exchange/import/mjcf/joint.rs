@@ -4,7 +4,8 @@ use lissom_motion::{Motion, Vector3};
 
 use super::super::{Freedom, ImportError, RobotJoint};
 use super::element::Element;
-use super::frame::{Angles, direction};
+use super::frame::direction;
+use super::tree::Settings;
 
 const USED: &[&str] = &[
     "type",
@@ -37,10 +38,11 @@ const HARMLESS: &[&str] = &[
 /// A joint from link `parent` to link `child`, the child's frame at `origin` at its reference value.
 pub(super) fn joint(
     element: &Element,
-    (angles, autolimits): (&Angles, bool),
+    settings: &Settings,
     (name, parent, child, origin): (String, usize, usize, Motion),
 ) -> Result<RobotJoint, ImportError> {
     element.check_known(USED, HARMLESS)?;
+    let (angles, autolimits) = (&settings.angles, settings.autolimits);
     let kind = if element.has_tag("freejoint") { "free" } else { element.text("type").unwrap_or("hinge") };
     let freedom = match kind {
         "hinge" => Freedom::Rotation,
@@ -54,9 +56,6 @@ pub(super) fn joint(
     };
     let unit = if freedom == Freedom::Displacement { 1.0 } else { angles.unit };
     let mut joint = RobotJoint::new(name, freedom, parent, child, origin);
-    if element.list("springdamper")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
-        return Err(element.fault("`springdamper` is not supported: write `stiffness` and `damping`"));
-    }
     joint.spring.stiffness = element.not_negative("stiffness")?;
     joint.damping = element.not_negative("damping")?;
     joint.friction = element.not_negative("frictionloss")?;

@@ -1,84 +1,95 @@
-//! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or computed from shapes, default classes, gravity.
-//! Contacts, actuators and sensors are omitted; unknown elements that affect the motion are rejected.
+//! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or computed from shapes, default classes, gravity, contacts,
+//! generated elements. Sensors are omitted; unknown elements that affect the motion are rejected.
 
 mod element;
+mod expand;
 mod frame;
 mod geom;
 mod joint;
+mod mesh;
 mod outside;
+mod touching;
+mod tree;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::rc::Rc;
 
-use lissom_motion::{Matrix3, Motion};
-use roxmltree::Node;
+use lissom_motion::{Matrix3, Motion, Vector3};
 
-use self::element::{Classes, Element};
-use self::frame::Angles;
+use self::element::Element;
 use self::geom::Geom;
+use self::mesh::Meshes;
+use self::tree::{Node, Settings};
 use super::model_text::{carried, together};
-use super::xml::{self, children};
-use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
+use super::xml;
+use super::{ContactRules, Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, WeightCompensation};
 
 /// Elements of a body that are only drawn or measured.
 const SEEN: [&str; 3] = ["site", "camera", "light"];
+/// Elements that generate deformable parts, and elements of forces, which are not read.
+const DEFORMABLE: [&str; 4] = ["flexcomp", "composite", "skin", "plugin"];
 
-/// Reads a robot from the text of an MJCF file.
+/// Reads a robot from the text of an MJCF file, without files that it names.
 ///
 /// # Errors
 /// If it is not MJCF, a number is invalid, or it contains unknown elements that affect the motion.
 pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
+    in_folder(text, None)
+}
+
+/// Reads a robot from the text of an MJCF file in a folder, where meshes and attached models are.
+pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, ImportError> {
     let document = xml::parse(text)?;
     let root = document.root_element();
     if !root.has_tag_name("mujoco") {
         let message = format!("this is not MJCF: its root is <{}>, not <mujoco>", root.tag_name().name());
         return Err(ImportError::new(message));
     }
-    let compiler = children(root, "compiler").map(Element::bare).reduce(Element::merged);
-    let compiler = compiler.unwrap_or_else(|| Element::bare(root));
-    outside::check_compiler(&compiler)?;
+    let mut obstacles = Vec::new();
+    let root = Node::read(&document, folder, &mut obstacles)?;
+    let root = expand::expanded(root, &mut obstacles);
+    let settings = Rc::clone(&root.settings);
     let mut reader = Reader {
-        angles: Angles::read(&compiler)?,
-        autolimits: compiler.flag("autolimits", true)?,
-        from_geoms: Inertias::read(&compiler)?,
-        groups: compiler.numbers::<2>("inertiagrouprange")?.unwrap_or([0.0, 5.0]),
-        classes: Classes::read(root)?,
-        touching: 0,
+        meshes: Meshes::of(&root),
         seen: Vec::new(),
+        sites: Sites::new(),
+        softened: BTreeMap::new(),
         robot: Robot {
             name: root.attribute("model").unwrap_or("robot").to_owned(),
-            gravity: outside::gravity(root)?,
+            gravity: outside::gravity(&root)?,
             links: vec![Link::new("world".to_owned(), None, String::new())],
             is_root_the_world: true,
             joints: Vec::new(),
             closures: Vec::new(),
+            ropes: Vec::new(),
+            tendons: Vec::new(),
+            contacts: ContactRules { filters_parents: true, ..ContactRules::default() },
+            compensations: Vec::new(),
             motors: Vec::new(),
             left_out: Vec::new(),
             unsupported: Vec::new(),
-            obstacles: Vec::new(),
+            obstacles,
         },
     };
-    for world in children(root, "worldbody") {
-        let class = world.attribute("childclass");
-        let place = Context {
-            offset: Motion::identity(),
-            class,
-            is_world: true,
-            needs_geoms: false,
-            is_frame: false,
-        };
-        reader.content(world, &place, &mut Content::default());
+    for world in root.of("worldbody") {
+        let place =
+            Context { offset: Motion::identity(), is_world: true, needs_geoms: false, is_frame: false };
+        let mut content = Content::default();
+        reader.content(world, &place, &mut content);
+        reader.keep_content(0, &mut content);
         reader.carried(world, 0, &place);
     }
-    let Reader { mut robot, classes, seen, touching, .. } = reader;
-    outside::set_total_mass(&compiler, &mut robot)?;
-    outside::read(root, &classes, &mut robot);
+    let Reader { mut robot, seen, mut meshes, sites, softened } = reader;
+    robot.left_out.extend(softened.iter().map(|(words, count)| format!("{words} of {count} geoms")));
+    outside::set_total_mass(&settings.compiler, &mut robot)?;
+    outside::read(&root, &sites, &mut robot);
     let seen = xml::counted(seen.into_iter());
     if !seen.is_empty() {
         robot.left_out.push(format!("elements: {}", seen.join(", ")));
     }
-    if touching > 1 {
-        robot.left_out.push("contacts: bodies pass through each other".to_owned());
-    }
+    robot.left_out.append(&mut meshes.notes);
+    robot.unsupported = summarized(std::mem::take(&mut robot.unsupported));
     let named = check_names(&robot);
     robot.keep(named);
     Ok(robot)
@@ -106,33 +117,33 @@ impl Inertias {
 }
 
 struct Reader {
-    angles: Angles,
-    autolimits: bool,
-    from_geoms: Inertias,
-    groups: [f64; 2],
-    classes: Classes,
-    /// Number of geoms that may collide.
-    touching: usize,
+    meshes: Meshes,
     /// Tags of elements that are only drawn or measured.
     seen: Vec<String>,
+    sites: Sites,
+    /// Properties of touches that are omitted, with the number of geoms that have them.
+    softened: BTreeMap<&'static str, usize>,
     robot: Robot,
 }
+
+/// Sites by name: the link, and the point in its frame [m].
+pub(super) type Sites = BTreeMap<String, (usize, Vector3)>;
 
 /// Contents of a body.
 #[derive(Default)]
 struct Content {
-    joints: Vec<Element>,
+    joints: Vec<(Element, Rc<Settings>)>,
     inertial: Option<LinkInertia>,
     geoms: Option<LinkInertia>,
+    visuals: Vec<super::Visual>,
+    sites: Vec<(String, Vector3)>,
 }
 
 /// Context of elements that are read.
 #[derive(Clone)]
-struct Context<'a> {
+struct Context {
     /// Enclosing frame relative to the body's.
     offset: Motion,
-    /// Enclosing default class.
-    class: Option<&'a str>,
     is_world: bool,
     /// Whether the body has the mass of its geoms.
     needs_geoms: bool,
@@ -142,72 +153,93 @@ struct Context<'a> {
 
 impl Reader {
     /// Reads the contents of a body, or of a frame of it, except nested bodies.
-    fn content(&mut self, node: Node<'_, '_>, place: &Context<'_>, content: &mut Content) {
-        for child in node.children().filter(Node::is_element) {
+    fn content(&mut self, node: &Node, place: &Context, content: &mut Content) {
+        for child in &node.children {
             let read = self.entry(child, place, content);
             self.robot.keep(read);
         }
     }
 
     /// Reads an element of a body.
-    fn entry(
-        &mut self,
-        child: Node<'_, '_>,
-        place: &Context<'_>,
-        content: &mut Content,
-    ) -> Result<(), ImportError> {
+    fn entry(&mut self, child: &Node, place: &Context, content: &mut Content) -> Result<(), ImportError> {
         let may_move = !place.is_world && !place.is_frame;
-        match child.tag_name().name() {
+        let own = &child.element;
+        match child.tag() {
             "body" => {}
-            "frame" => self.content(child, &self.frame(child, place)?, content),
-            "joint" if may_move => content.joints.push(self.classes.element(child, place.class)?),
-            "freejoint" if may_move => content.joints.push(Element::bare(child)),
+            "frame" => self.content(child, &frame_of(child, place)?, content),
+            "joint" | "freejoint" if may_move => {
+                content.joints.push((own.clone(), Rc::clone(&child.settings)));
+            }
             "inertial" if may_move => {
-                let own = Element::bare(child);
-                let read = inertial(&own, &frame::frame(&own, &self.angles)?)?;
+                let read = inertial(own, &frame::frame(own, &child.settings.angles)?)?;
                 if content.inertial.replace(read).is_some() {
                     return Err(own.fault("the body has two"));
                 }
             }
-            "geom" => {
-                let geom = Geom::read(self.classes.element(child, place.class)?)?;
-                self.touching += usize::from(geom.touches);
-                if place.needs_geoms
-                    && (self.groups[0]..=self.groups[1]).contains(&geom.group)
-                    && let Some(mass) = geom.mass(&self.angles)?
-                {
-                    let mass = carried(&mass, &place.offset);
-                    content.geoms = Some(together(content.geoms.as_ref(), &mass));
+            "geom" => self.geom(child, place, content)?,
+            tag if SEEN.contains(&tag) => {
+                self.seen.push(tag.to_owned());
+                if let Some(name) = child.name().filter(|_| tag == "site") {
+                    let own = match own.numbers::<6>("fromto")? {
+                        Some([a, b, c, d, e, f]) => 0.5 * Vector3::new(a + d, b + e, c + f),
+                        None => Vector3::from(own.numbers::<3>("pos")?.unwrap_or_default()),
+                    };
+                    content.sites.push((name.to_owned(), place.offset.transform_point(&own)));
                 }
             }
-            "plugin" => self.robot.unsupported.push(Element::bare(child).words()),
-            tag if SEEN.contains(&tag) => self.seen.push(tag.to_owned()),
+            tag if DEFORMABLE.contains(&tag) => self.robot.unsupported.push(own.words()),
             tag => {
                 let message = format!("<{tag}> is not supported here: write the elements that it generates");
-                return Err(Element::bare(child).fault(message));
+                return Err(own.fault(message));
             }
         }
         Ok(())
     }
 
-    /// The context of the elements of a `<frame>`.
-    fn frame<'a>(&self, node: Node<'a, 'a>, around: &Context<'a>) -> Result<Context<'a>, ImportError> {
-        let own = Element::bare(node);
-        own.check_known(&frame::ATTRIBUTES, &["childclass"])?;
-        let offset = around.offset * frame::frame(&own, &self.angles)?;
-        let class = node.attribute("childclass").or(around.class);
-        Ok(Context { offset, class, is_frame: true, ..around.clone() })
+    /// Reads a geom: its mass, what is drawn of it, and how it touches others.
+    fn geom(&mut self, child: &Node, place: &Context, content: &mut Content) -> Result<(), ImportError> {
+        let geom = Geom::read(child)?;
+        if geom.kind == "sdf" || child.of("plugin").next().is_some() {
+            let words = format!("the signed distance function of {}", child.element.words());
+            self.robot.unsupported.push(words);
+            return Ok(());
+        }
+        self.robot.unsupported.extend(geom.unsupported()?);
+        for (key, words, least) in
+            [("condim", "friction against rolling and spinning (`condim`)", 3.0), ("margin", "`margin`", 0.0)]
+        {
+            if child.element.number(key, 0.0)? > least {
+                *self.softened.entry(words).or_default() += 1;
+            }
+        }
+        let groups = child.settings.groups;
+        let counts = place.needs_geoms && (groups[0]..=groups[1]).contains(&geom.group);
+        if counts && let Some(mass) = geom.mass(&mut self.meshes)? {
+            let mass = carried(&mass, &place.offset);
+            content.geoms = Some(together(content.geoms.as_ref(), &mass));
+        }
+        if let Some(mut visual) = geom.visual(&mut self.meshes)? {
+            visual.origin = place.offset * visual.origin;
+            content.visuals.push(visual);
+        }
+        Ok(())
+    }
+
+    /// Gives what was read of a body to its link.
+    fn keep_content(&mut self, link: usize, content: &mut Content) {
+        self.robot.links[link].visuals.append(&mut content.visuals);
+        self.sites.extend(content.sites.drain(..).map(|(name, point)| (name, (link, point))));
     }
 
     /// Reads the child bodies of link `parent`.
-    fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Context<'_>) {
-        for child in node.children().filter(Node::is_element) {
-            if child.has_tag_name("frame") {
+    fn carried(&mut self, node: &Node, parent: usize, place: &Context) {
+        for child in &node.children {
+            if child.has_tag("frame") {
                 // A frame that cannot be read is reported with the content of its body.
-                if let Ok(place) = self.frame(child, place) {
+                if let Ok(place) = frame_of(child, place) {
                     self.carried(child, parent, &place);
                 }
-            } else if child.has_tag_name("body") {
+            } else if child.has_tag("body") {
                 let read = self.body(child, parent, place);
                 self.robot.keep(read);
             }
@@ -215,28 +247,23 @@ impl Reader {
     }
 
     /// Reads a child body of link `parent`, and all its descendants.
-    fn body(&mut self, node: Node<'_, '_>, parent: usize, around: &Context<'_>) -> Result<(), ImportError> {
-        let own = Element::bare(node);
+    fn body(&mut self, node: &Node, parent: usize, around: &Context) -> Result<(), ImportError> {
+        let own = &node.element;
         let known =
             own.check_known(&frame::ATTRIBUTES, &["childclass", "mocap", "gravcomp", "user", "sleep"]);
         self.robot.keep(known);
-        let frame = self.robot.keep(frame::frame(&own, &self.angles)).unwrap_or_default();
+        let frame = self.robot.keep(frame::frame(own, &node.settings.angles)).unwrap_or_default();
         let mut origin = around.offset * frame;
         let name = own.text("name").map_or_else(|| format!("body{}", self.robot.links.len()), str::to_owned);
-        if own.number("gravcomp", 0.0)? != 0.0 {
-            self.robot
-                .unsupported
-                .push(format!("the compensated weight of body `{name}` ({})", own.location()));
-        }
+        let compensated = own.number("gravcomp", 0.0)?;
         if own.flag("mocap", false)? {
             self.robot.left_out.push(format!("the prescribed motion of body `{name}`, which is fixed"));
         }
-        let has_inertial = children(node, "inertial").next().is_some();
+        let has_inertial = node.of("inertial").next().is_some();
         let place = Context {
             offset: Motion::identity(),
-            class: node.attribute("childclass").or(around.class),
             is_world: false,
-            needs_geoms: match self.from_geoms {
+            needs_geoms: match node.settings.from_geoms {
                 Inertias::Given => false,
                 Inertias::GivenOrGeoms => !has_inertial,
                 Inertias::Geoms => true,
@@ -249,7 +276,14 @@ impl Reader {
 
         // Several joints of a body are in series, through massless links.
         let (mut carrier, count) = (parent, content.joints.len());
-        for (number, element) in content.joints.iter().enumerate() {
+        for (element, _) in &content.joints {
+            if element.list("springdamper")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
+                let words =
+                    format!("`springdamper` of {}, instead of `stiffness` and `damping`", element.words());
+                self.robot.unsupported.push(words);
+            }
+        }
+        for (number, (element, settings)) in content.joints.iter().enumerate() {
             let is_last = number + 1 == count;
             let child = self.robot.links.len();
             let joint_name = match element.text("name") {
@@ -259,9 +293,10 @@ impl Reader {
             };
             let link = if is_last { name.clone() } else { format!("{name} behind {joint_name}") };
             let source = own.location().to_owned();
-            self.robot.links.push(Link::new(link, inertia.filter(|_| is_last), source));
-            let compiled = (&self.angles, self.autolimits);
-            let read = joint::joint(element, compiled, (joint_name.clone(), carrier, child, origin));
+            let mut link = Link::new(link, inertia.filter(|_| is_last), source);
+            link.is_between = !is_last;
+            self.robot.links.push(link);
+            let read = joint::joint(element, settings, (joint_name.clone(), carrier, child, origin));
             let fixed = || RobotJoint::new(joint_name, Freedom::Fixed, carrier, child, origin);
             let joint = self.robot.keep(read).unwrap_or_else(fixed);
             if joint.armature > 0.0 && !joint.moves() {
@@ -286,9 +321,20 @@ impl Reader {
             self.robot.joints.push(fixed);
             carrier = child;
         }
+        self.keep_content(carrier, &mut content);
+        if compensated != 0.0 {
+            self.robot.compensations.push(WeightCompensation { link: carrier, share: compensated });
+        }
         self.carried(node, carrier, &place);
         Ok(())
     }
+}
+
+/// The context of the elements of a `<frame>`.
+fn frame_of(node: &Node, around: &Context) -> Result<Context, ImportError> {
+    node.element.check_known(&frame::ATTRIBUTES, &["childclass"])?;
+    let offset = around.offset * frame::frame(&node.element, &node.settings.angles)?;
+    Ok(Context { offset, is_frame: true, ..around.clone() })
 }
 
 /// The explicit inertia of a body.
@@ -305,6 +351,19 @@ fn inertial(own: &Element, placed: &Motion) -> Result<LinkInertia, ImportError> 
     }
     let turn = placed.rotation.matrix();
     Ok(LinkInertia { mass, centre: placed.position, inertia: turn * tensor * turn.transpose() })
+}
+
+/// Sentences, each once with how often it occurs: what is generated has the line of its source.
+fn summarized(all: Vec<String>) -> Vec<String> {
+    let mut counts: Vec<(String, usize)> = Vec::new();
+    for own in all {
+        match counts.iter_mut().find(|(known, _)| *known == own) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((own, 1)),
+        }
+    }
+    let words = |(own, count): (String, usize)| if count > 1 { format!("{own}, {count} times") } else { own };
+    counts.into_iter().map(words).collect()
 }
 
 /// Rejects names that occur twice.

@@ -1,14 +1,17 @@
 //! Sections of an MJCF file other than bodies: those that are converted, and those that are reported.
 
 use lissom_motion::Vector3;
-use roxmltree::Node;
 
-use super::super::xml::{children, counted};
-use super::super::{Closure, ImportError, Motor, Robot};
-use super::element::{Classes, Element};
+use super::super::xml::counted;
+use super::super::{Closure, ImportError, JointTendon, Motor, Robot, Rope};
+use super::Sites;
+use super::element::Element;
+use super::touching;
+use super::tree::Node;
 
 /// Sections that do not affect the motion.
-const SHOWN: [&str; 7] = ["size", "visual", "statistic", "asset", "custom", "sensor", "keyframe"];
+const SHOWN: [&str; 8] =
+    ["size", "visual", "statistic", "asset", "custom", "sensor", "keyframe", "extension"];
 /// Settings of a compiler that change masses, and their values without effect.
 const MASS_SETTINGS: [(&str, &[&str]); 3] =
     [("boundmass", &["0"]), ("boundinertia", &["0"]), ("balanceinertia", &["false"])];
@@ -31,12 +34,12 @@ pub(super) fn check_compiler(compiler: &Element) -> Result<(), ImportError> {
 }
 
 /// Gravity from `<option>` [m/s²].
-pub(super) fn gravity(root: Node<'_, '_>) -> Result<Vector3, ImportError> {
+pub(super) fn gravity(root: &Node) -> Result<Vector3, ImportError> {
     let mut gravity = [0.0, 0.0, -9.81];
-    for node in children(root, "option") {
-        let option = Element::bare(node);
+    for node in root.of("option") {
+        let option = &node.element;
         gravity = option.numbers::<3>("gravity")?.unwrap_or(gravity);
-        if children(node, "flag").any(|flag| flag.attribute("gravity") == Some("disable")) {
+        if node.of("flag").any(|flag| flag.attribute("gravity") == Some("disable")) {
             gravity = [0.0; 3];
         }
     }
@@ -57,88 +60,90 @@ pub(super) fn set_total_mass(compiler: &Element, robot: &mut Robot) -> Result<()
 }
 
 /// Reads all sections except bodies into `robot`.
-pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) {
-    let handled = ["compiler", "default", "worldbody", "option", "contact", "equality", "tendon", "actuator"];
-    for node in root.children().filter(Node::is_element) {
-        let tag = node.tag_name().name();
-        match tag {
+pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
+    let handled = ["compiler", "default", "worldbody", "option", "tendon", "actuator"];
+    let mut others = Vec::new();
+    for node in &root.children {
+        match node.tag() {
             "option" => {
                 let read = option(node, robot);
                 robot.keep(read);
             }
             "equality" => {
-                for inner in inner(node) {
-                    let read = equality(inner, classes, robot);
+                for inner in &node.children {
+                    let read = equality(inner, robot);
                     robot.keep(read);
                 }
             }
-            "tendon" => {
-                let read = tendons(node, classes, robot);
-                robot.keep(read);
+            "contact" => {
+                for inner in &node.children {
+                    let read = touching::contact(inner, robot);
+                    robot.keep(read);
+                }
             }
             "actuator" => {
-                let (mut motors, mut others) = (Vec::new(), Vec::new());
-                for own in inner(node) {
-                    match robot.keep(motor(own, classes, robot)) {
-                        Some(Some(motor)) => motors.push(motor),
-                        _ => others.push(own.tag_name().name().to_owned()),
+                for own in &node.children {
+                    match robot.keep(motor(own, robot)) {
+                        Some(Some(motor)) => robot.motors.push(motor),
+                        _ => others.push(own.tag().to_owned()),
                     }
                 }
-                if !motors.is_empty() {
-                    let words = match motors.len() {
-                        1 => "the command of 1 motor: `--motors` writes an input".to_owned(),
-                        count => format!("the commands of {count} motors: `--motors` writes inputs"),
-                    };
-                    robot.left_out.push(words);
-                }
-                robot.motors.extend(motors);
-                let all = counted(others.into_iter());
-                if !all.is_empty() {
-                    let words = format!(
-                        "actuators, also their forces without a command: {}; joints are driven by loads and signals",
-                        all.join(", ")
-                    );
-                    robot.left_out.push(words);
-                }
             }
-            "keyframe" if inner(node).next().is_some() => {
+            "keyframe" if !node.children.is_empty() => {
                 robot.left_out.push("key frames: initial values are specified by --position".to_owned());
             }
             "include" => {
                 // Files are read where the description is one.
                 let file = node.attribute("file").unwrap_or_default();
-                let fault = Element::bare(node)
-                    .fault(format!("the file `{file}` is not read from a text without a folder"));
+                let fault =
+                    node.element.fault(format!("the file `{file}` is not read from a text without a folder"));
                 robot.obstacles.push(fault.message);
             }
-            _ if handled.contains(&tag) || SHOWN.contains(&tag) => {}
-            _ => robot.unsupported.push(Element::bare(node).words()),
+            tag if handled.contains(&tag) || SHOWN.contains(&tag) => {}
+            "deformable" if node.children.iter().all(|own| own.has_tag("skin")) => {
+                robot.left_out.push(format!("skins of {}", node.element.words()));
+            }
+            _ => robot.unsupported.push(node.element.words()),
         }
+    }
+    for node in root.within("tendon") {
+        let read = tendon(node, sites, robot);
+        robot.keep(read);
+    }
+    let all = counted(others.into_iter());
+    if !all.is_empty() {
+        robot.left_out.push(format!(
+            "actuators, also their forces without a command: {}; joints are driven by loads and signals",
+            all.join(", ")
+        ));
     }
 }
 
-fn inner<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(Node::is_element)
-}
-
-fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let option = Element::bare(node);
+fn option(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
+    let option = &node.element;
     for key in ["density", "viscosity"] {
         if option.number(key, 0.0)? != 0.0 {
             robot.unsupported.push(format!("fluid forces, `{key}` of {}", option.words()));
         }
     }
-    for flag in children(node, "flag") {
-        for word in FORCES.iter().filter(|word| flag.attribute(**word) == Some("disable")) {
+    if option.list("wind")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
+        robot.left_out.push(format!("the wind of {}, which acts by a fluid", option.words()));
+    }
+    robot.contacts.step = option.numbers::<1>("timestep")?.map(|[step]| step).or(robot.contacts.step);
+    for flag in node.of("flag") {
+        let is_off = |word: &str| flag.attribute(word) == Some("disable");
+        for word in FORCES.iter().filter(|word| is_off(word)) {
             robot.unsupported.push(format!("the flag {word}=\"disable\" of {}", option.words()));
         }
+        robot.contacts.filters_parents &= !is_off("filterparent");
+        robot.contacts.is_disabled |= is_off("contact");
     }
     Ok(())
 }
 
 /// A `motor` on a joint; none for other actuators, whose forces follow from laws of their own.
-fn motor(node: Node<'_, '_>, classes: &Classes, robot: &Robot) -> Result<Option<Motor>, ImportError> {
-    let own = classes.element(node, None)?;
+fn motor(node: &Node, robot: &Robot) -> Result<Option<Motor>, ImportError> {
+    let own = &node.element;
     let Some(name) = own.text("joint").filter(|_| own.has_tag("motor")) else { return Ok(None) };
     let Some(joint) = robot.joints.iter().position(|joint| joint.name == name && joint.moves()) else {
         return Ok(None);
@@ -153,21 +158,23 @@ fn motor(node: Node<'_, '_>, classes: &Classes, robot: &Robot) -> Result<Option<
 }
 
 /// Joints that follow others become mimic joints; bodies that are connected close loops; other equalities are reported.
-fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
-    let own = classes.element(node, None)?;
+fn equality(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
+    let own = &node.element;
     if !own.flag("active", true)? {
         robot.left_out.push(format!("an equality that is not active, {}", own.words()));
         return Ok(());
     }
-    let tag = node.tag_name().name();
+    let tag = node.tag();
     let relative = own.list("relpose")?.unwrap_or_default();
     let is_relative = relative.iter().skip(3).any(|value| *value != 0.0);
     if let (true, Some(first)) = (matches!(tag, "connect" | "weld") && !is_relative, own.text("body1")) {
-        let body = |name: &str| {
-            let found = robot.links.iter().position(|link| link.name == name);
-            found.ok_or_else(|| own.fault(format!("there is no body `{name}`")))
-        };
-        let links = [body(first)?, body(own.text("body2").unwrap_or("world"))?];
+        let second = own.text("body2").unwrap_or("world");
+        if let Some(message) = missing_body(&[first, second], own, robot)? {
+            robot.unsupported.push(message);
+            return Ok(());
+        }
+        let links =
+            [first, second].map(|name| robot.links.iter().position(|link| link.name == name).unwrap_or(0));
         let anchor = own.numbers::<3>("anchor")?;
         if tag == "connect" && anchor.is_none() {
             return Err(own.fault("it has no `anchor`"));
@@ -207,19 +214,118 @@ fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<
     Ok(())
 }
 
-/// Tendons that only transmit actuators have no effect of their own.
-fn tendons(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
-    for node in inner(node) {
-        let own = classes.element(node, None)?;
-        let acts = ["stiffness", "damping", "frictionloss", "armature", "range"].iter().any(|key| {
+/// What connects bodies of deformable parts, which are not generated; none if all bodies are there.
+///
+/// # Errors
+/// If a body is not there and nothing could generate it.
+pub(super) fn missing_body(
+    names: &[&str],
+    own: &Element,
+    robot: &Robot,
+) -> Result<Option<String>, ImportError> {
+    let is_there = |name: &str| robot.links.iter().any(|link| link.name == name);
+    let Some(name) = names.iter().find(|name| !is_there(name)) else { return Ok(None) };
+    let is_generated = robot
+        .unsupported
+        .iter()
+        .any(|what| what.starts_with("<flexcomp>") || what.starts_with("<composite>"));
+    if is_generated {
+        return Ok(Some(format!("{}, which connects the body `{name}` of a deformable part", own.words())));
+    }
+    Err(own.fault(format!("there is no body `{name}`")))
+}
+
+/// Tendons with springs and limits; those that only transmit actuators have no effect of their own.
+fn tendon(node: &Node, sites: &Sites, robot: &mut Robot) -> Result<(), ImportError> {
+    let own = &node.element;
+    let acts = |keys: &[&str]| {
+        keys.iter().any(|key| {
             own.text(key).is_some_and(|text| text.split_whitespace().any(|word| word.parse() != Ok(0.0)))
-        });
+        })
+    };
+    let name = own
+        .text("name")
+        .map_or_else(|| format!("tendon{}", robot.ropes.len() + robot.tendons.len() + 1), str::to_owned);
+    if !acts(&["stiffness", "damping", "frictionloss", "armature", "range"]) {
+        robot.left_out.push(format!("the tendon `{name}`, which serves only actuators"));
+        return Ok(());
+    }
+    let limited = match own.text("limited").unwrap_or("auto") {
+        "true" => true,
+        "auto" => node.settings.autolimits,
+        _ => false,
+    };
+    let range = own.numbers::<2>("range")?.filter(|_| limited);
+    let stiffness = own.not_negative("stiffness")?;
+    let damping = own.not_negative("damping")?;
+    let rest = own.list("springlength")?.filter(|rest| rest.first().is_some_and(|first| *first >= 0.0));
+    let rest = rest.map(|rest| [rest[0], rest.get(1).copied().unwrap_or(rest[0])]);
+    let acts_otherwise = damping > 0.0 || acts(&["frictionloss", "armature"]);
+    let tendon = Springy { name: name.clone(), range, stiffness, rest };
+    let is_known = match node.tag() {
+        _ if acts_otherwise => false,
+        "fixed" => fixed(node, tendon, robot)?,
+        "spatial" => spatial(node, sites, tendon, robot)?,
+        _ => false,
+    };
+    if !is_known {
         let name = own.text("name").unwrap_or("without a name");
-        if acts {
-            robot.unsupported.push(format!("the tendon `{name}` ({})", own.location()));
-        } else {
-            robot.left_out.push(format!("the tendon `{name}`, which serves only actuators"));
-        }
+        robot.unsupported.push(format!("the tendon `{name}` ({})", own.location()));
     }
     Ok(())
+}
+
+/// Limits and spring of a tendon.
+struct Springy {
+    name: String,
+    range: Option<[f64; 2]>,
+    stiffness: f64,
+    /// Lengths between which its spring is free of force, if they are given.
+    rest: Option<[f64; 2]>,
+}
+
+/// A tendon over joint coordinates; false if it cannot be modelled.
+fn fixed(node: &Node, own: Springy, robot: &mut Robot) -> Result<bool, ImportError> {
+    let mut terms = Vec::new();
+    for term in node.of("joint") {
+        let joint = term.attribute("joint").unwrap_or_default();
+        let Some(index) = robot.joints.iter().position(|own| own.name == joint && own.moves()) else {
+            return Err(term.element.fault(format!("there is no hinge or slide `{joint}`")));
+        };
+        terms.push((index, term.element.number("coef", 1.0)?));
+    }
+    if terms.is_empty() {
+        return Ok(false);
+    }
+    let reference = terms.iter().map(|(joint, factor)| factor * robot.joints[*joint].reference).sum();
+    let tendon = JointTendon {
+        name: own.name,
+        terms,
+        range: own.range,
+        stiffness: own.stiffness,
+        rest: own.rest.unwrap_or([reference; 2]),
+    };
+    robot.tendons.push(tendon);
+    Ok(true)
+}
+
+/// A tendon over sites that only pulls, as a rope; false for others.
+fn spatial(node: &Node, sites: &Sites, tendon: Springy, robot: &mut Robot) -> Result<bool, ImportError> {
+    let mut along = Vec::new();
+    for own in &node.children {
+        let Some(site) = own.attribute("site").filter(|_| own.has_tag("site")) else { return Ok(false) };
+        let found = sites.get(site).copied();
+        along.push(found.ok_or_else(|| own.element.fault(format!("there is no site `{site}`")))?);
+    }
+    // Limits pull only; so does a spring that is free of force from the length zero on.
+    let (length, stiffness) = match (tendon.range, tendon.rest) {
+        (Some([low, high]), _) if low <= 0.0 && tendon.stiffness == 0.0 => (high, None),
+        (None, Some([low, high])) if low == 0.0 && high > 0.0 => (high, Some(tendon.stiffness)),
+        _ => return Ok(false),
+    };
+    if along.len() < 2 {
+        return Ok(false);
+    }
+    robot.ropes.push(Rope { name: tendon.name, along, length, stiffness });
+    Ok(true)
 }
