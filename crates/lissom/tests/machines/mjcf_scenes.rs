@@ -1,5 +1,7 @@
 //! Scenes in MJCF: generated elements, masses of meshes, contacts of geoms, tendons that act, compensated weights.
 
+use std::fmt::Write;
+
 use lissom::exchange::import::{
     LinkInertia, Motors, Options, Pose, Robot, Unsupported, from_description, from_file, model_text,
     omissions,
@@ -158,12 +160,13 @@ fn meshes_have_the_mass_of_their_solid() {
     let folder = Folder::new("meshes");
     let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
     let faces = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
-    let words = |tag: &str, rows: Vec<Vec<i32>>| -> String {
-        let line = |row: &Vec<i32>| row.iter().map(|value| format!(" {value}")).collect::<String>();
-        rows.iter().map(|row| format!("{tag}{}\n", line(row))).collect()
-    };
-    let obj = words("v", corners.iter().map(|own| own.to_vec()).collect())
-        + &words("f", faces.iter().map(|own| own.to_vec()).collect());
+    let mut obj = String::new();
+    for [x, y, z] in corners {
+        let _ = writeln!(obj, "v {x} {y} {z}");
+    }
+    for [a, b, c, d] in faces {
+        let _ = writeln!(obj, "f {a} {b} {c} {d}");
+    }
     folder.write("cube.obj", &obj);
     let mut stl = String::from("solid cube\n");
     for [a, b, c, d] in faces {
@@ -171,7 +174,7 @@ fn meshes_have_the_mass_of_their_solid() {
             stl += "facet normal 0 0 0\nouter loop\n";
             for corner in triangle {
                 let [x, y, z] = corners[corner as usize - 1];
-                stl += &format!("vertex {x} {y} {z}\n");
+                let _ = writeln!(stl, "vertex {x} {y} {z}");
             }
             stl += "endloop\nendfacet\n";
         }
