@@ -1,5 +1,6 @@
 //! `lissom import`: a model file from a robot description of another program.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -21,7 +22,8 @@ Examples:
   lissom import ur5.urdf --position elbow_joint=0.5 --out elbow.toml
   lissom import ur5.urdf --motors                  an input and a torque for each motor
   lissom import solo12.urdf --floating --without limits,friction
-  lissom import hopper.xml                         MJCF, the description of MuJoCo")]
+  lissom import hopper.xml                         MJCF, the description of MuJoCo
+  lissom import humanoid.xml --keyframe squat      starts at one of its key frames")]
 pub(super) struct Import {
     /// The description: URDF or MJCF, regardless of the file extension.
     #[arg(value_name = "ROBOT")]
@@ -32,6 +34,9 @@ pub(super) struct Import {
     /// Initial coordinate of a joint [rad, m]; may be repeated.
     #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]
     positions: Vec<(String, f64)>,
+    /// Start at a key frame of MJCF; `--position` changes joints of it.
+    #[arg(long, value_name = "NAME")]
+    keyframe: Option<String>,
     /// Leave the root free instead of fixing it to the ground.
     #[arg(long)]
     floating: bool,
@@ -80,7 +85,12 @@ impl Import {
         }
         let mut robot = from_file(&self.file).map_err(|error| bad(error.diagnostic()))?;
         robot.locate_meshes(&self.file, &out);
-        let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
+        let mut values = match &self.keyframe {
+            Some(name) => robot.start_at(name).map_err(|error| bad(error.diagnostic()))?,
+            None => BTreeMap::new(),
+        };
+        values.extend(self.positions.iter().cloned());
+        let pose = Pose { values, ..Pose::default() };
         let options = Options {
             root: if self.floating || robot.is_object() { Root::Floating } else { Root::Held },
             limits: !self.without.contains(&Part::Limits),
@@ -118,10 +128,15 @@ impl Import {
             }
             _ => String::new(),
         };
+        let names: Vec<&str> = robot.keyframes.iter().map(|own| own.name.as_str()).collect();
+        let keyframes = match &self.keyframe {
+            None if !names.is_empty() => format!("  start: --keyframe chooses one of {}\n", names.join(", ")),
+            _ => String::new(),
+        };
         let chosen = chosen_starts(&robot, &pose, options);
         let starts = self.starts(&chosen, &out);
         terminal::print(&format!(
-            "{} is written: {} links, {moving} moving joints.\n{root}{left_out}{starts}Next:\n  lissom view {} --open    simulate it and watch the \
+            "{} is written: {} links, {moving} moving joints.\n{root}{left_out}{keyframes}{starts}Next:\n  lissom view {} --open    simulate it and watch the \
              motion\n",
             out.display(),
             robot.links.len(),
@@ -141,6 +156,7 @@ impl Import {
         let given = self.positions.iter().map(|(joint, value)| (joint, *value));
         let all = given.chain(chosen.iter().map(|own| (&own.joint, own.value)));
         words.extend(all.map(|(joint, value)| format!("--position {joint}={value}")));
+        words.extend(self.keyframe.iter().map(|name| format!("--keyframe {name}")));
         words.extend(self.floating.then(|| "--floating".to_owned()));
         let without: Vec<String> = self
             .without

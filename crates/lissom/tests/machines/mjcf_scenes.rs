@@ -385,3 +385,36 @@ fn the_model_is_what_the_description_says() {
     let options = Options { unsupported: Unsupported::LeftOut, ..Options::default() };
     model_text(&described(soft), &Pose::default(), options).expect("a model");
 }
+
+/// A key frame has the coordinates of all joints in the order of the description: a free body, a ball joint about a point beside its
+/// frame, a slide and a hinge.
+#[test]
+fn robots_start_at_key_frames() {
+    let text = "<mujoco><compiler angle='radian'/><worldbody>
+        <body name='box' pos='0 0 1'><freejoint/><geom size='.1'/></body>
+        <body name='post'><joint name='lift' type='slide' axis='0 0 1'/><geom size='.1'/>
+         <body name='bob' pos='1 0 0'><joint name='ball' type='ball' pos='-1 0 0'/><geom size='.1'/>
+          <body name='flap' pos='0 0 1'><joint name='hinge' axis='0 1 0'/><geom size='.1' pos='.3 0 0'/></body></body></body>
+        </worldbody><keyframe>
+        <key name='up' qpos='1 2 3 0 0 0 1 0.25 0.7071067811865476 0 0 0.7071067811865476 0.4'/><key/><key qpos='1 2'/>
+        </keyframe></mujoco>";
+    let mut robot = described(text);
+    let values = robot.start_at("up").expect("a key frame");
+    let pose = Pose { values, ..Pose::default() };
+    let options = Options { contacts: false, ..Options::default() };
+    let written = model_text(&robot, &pose, options).expect("a model");
+    let outputs: String =
+        ["box", "bob", "flap"].map(|name| position_of(name).replace(".at]", &format!(".{name}]"))).concat();
+    let results = run(&format!("{written}{outputs}"), &[("analysis.end", "0.01")]);
+    let start = |name: &str| ["x", "y", "z"].map(|axis| column(&results, name, axis)[0]);
+    // The ball turns the bob by a quarter about the vertical through the post, which is lifted.
+    for (name, wanted) in [("box", [1.0, 2.0, 3.0]), ("bob", [0.0, 1.0, 0.25]), ("flap", [0.0, 1.0, 1.25])] {
+        let found = start(name);
+        assert!((0..3).all(|k| (found[k] - wanted[k]).abs() < 1e-9), "{name}: {found:?}");
+    }
+    assert!((column(&results, "hinge", "angle")[0] - 0.4).abs() < 1e-12);
+    assert!(robot.start_at("key1").expect("the position of the description").is_empty());
+    let fault = |name: &str| robot.clone().start_at(name).unwrap_err().message;
+    assert!(fault("key2").contains("it has 2 coordinates, and the joints 13"), "{}", fault("key2"));
+    assert!(fault("down").contains("up, key1, key2"), "{}", fault("down"));
+}

@@ -41,6 +41,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         tendons: Vec::new(),
         contacts: super::ContactRules::default(),
         compensations: Vec::new(),
+        keyframes: Vec::new(),
         motors: Vec::new(),
         obstacles: Vec::new(),
         unsupported: Vec::new(),

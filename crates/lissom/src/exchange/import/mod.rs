@@ -6,6 +6,7 @@ mod contacts;
 mod from_model;
 mod include;
 mod joint_text;
+mod keyframes;
 mod massless;
 mod mjcf;
 mod model_text;
@@ -24,6 +25,7 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
 
 pub use contacts::{ContactPair, ContactRules, Touch, TouchLaw};
 pub use from_model::{ModelRobot, from_model};
+pub use keyframes::Keyframe;
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text, omissions};
 pub use motors::{Motor, Motors};
@@ -93,6 +95,8 @@ pub struct Robot {
     pub contacts: ContactRules,
     /// Links whose weight is compensated.
     pub compensations: Vec<WeightCompensation>,
+    /// Positions of all joints at which it may start.
+    pub keyframes: Vec<Keyframe>,
     /// Motors, which are omitted unless they are requested.
     pub motors: Vec<Motor>,
     /// Contents of the description that are omitted from the model, one sentence each.

@@ -63,6 +63,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         tendons: Vec::new(),
         contacts: super::ContactRules::default(),
         compensations: Vec::new(),
+        keyframes: Vec::new(),
         motors: Vec::new(),
         left_out,
         unsupported: Vec::new(),

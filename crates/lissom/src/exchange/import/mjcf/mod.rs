@@ -66,6 +66,7 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
             tendons: Vec::new(),
             contacts: ContactRules { filters_parents: true, ..ContactRules::default() },
             compensations: Vec::new(),
+            keyframes: Vec::new(),
             motors: Vec::new(),
             left_out: Vec::new(),
             unsupported: Vec::new(),

@@ -3,7 +3,7 @@
 use lissom_motion::Vector3;
 
 use super::super::xml::counted;
-use super::super::{Closure, ImportError, JointTendon, Motor, Robot, Rope};
+use super::super::{Closure, ImportError, JointTendon, Keyframe, Motor, Robot, Rope};
 use super::Sites;
 use super::element::Element;
 use super::touching;
@@ -89,8 +89,11 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
                     }
                 }
             }
-            "keyframe" if !node.children.is_empty() => {
-                robot.left_out.push("key frames: initial values are specified by --position".to_owned());
+            "keyframe" => {
+                for own in &node.children {
+                    let read = keyframe(own, robot);
+                    robot.keep(read);
+                }
             }
             "include" => {
                 // Files are read where the description is one.
@@ -117,6 +120,19 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
             all.join(", ")
         ));
     }
+}
+
+/// A position of all joints. Velocities and activations are omitted.
+fn keyframe(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
+    let own = &node.element;
+    own.check_known(&["name", "qpos", "qvel"], &["time", "act", "ctrl", "mpos", "mquat"])?;
+    let name = own.text("name").map_or_else(|| format!("key{}", robot.keyframes.len()), str::to_owned);
+    if own.list("qvel")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
+        robot.left_out.push(format!("the velocities of key frame `{name}`"));
+    }
+    let positions = own.list("qpos")?.unwrap_or_default();
+    robot.keyframes.push(Keyframe { name, positions, source: own.location().to_owned() });
+    Ok(())
 }
 
 fn option(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
