@@ -163,7 +163,8 @@ fn all_obstacles_are_in_one_message() {
     let robot = from_description(
         "<robot name='r'><link name='base'/>
          <link name='arm'><inertial><mass value='1'/><inertia ixx='0' iyy='0' izz='0'/></inertial></link>
-         <link name='tip'/><link name='tool'/>
+         <link name='tip'><inertial><mass value='2'/><inertia ixx='0' iyy='0' izz='0'/></inertial></link>
+         <link name='tool'><inertial><mass value='3'/><inertia ixx='0' iyy='0' izz='0'/></inertial></link>
          <joint name='a' type='continuous'><parent link='base'/><child link='arm'/></joint>
          <joint name='b' type='continuous'><parent link='arm'/><child link='tip'/></joint>
          <joint name='c' type='continuous'><parent link='arm'/><child link='tool'/></joint></robot>",
@@ -171,7 +172,7 @@ fn all_obstacles_are_in_one_message() {
     .expect("a robot");
     let found = refused(&robot).message;
     for words in
-        ["3 obstacles", "line 2: link `arm` has the mass 1.0 kg", "line 3: link `tip`", "line 3: link `tool`"]
+        ["3 obstacles", "line 2: link `arm` has the mass 1.0 kg", "line 3: link `tip`", "line 4: link `tool`"]
     {
         assert!(found.contains(words), "{words}: {found}");
     }
