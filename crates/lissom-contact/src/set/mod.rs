@@ -55,7 +55,7 @@ pub struct ContactRule {
     pub name: String,
     /// Parts of the contact among those of the set, each once; of two parts the earlier one is the base.
     pub parts: Vec<usize>,
-    /// Of each part the groups to which it belongs, ascending: parts of a common group do not touch each other. Empty without groups.
+    /// Groups to which each part belongs, ascending: parts of a common group do not touch each other. Empty without groups.
     pub groups: Vec<Vec<u32>>,
     /// Law of its touches; a moving surface is that of the first part.
     pub law: TouchLaw,

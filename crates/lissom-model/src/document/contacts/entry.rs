@@ -59,7 +59,7 @@ impl ContactEntry {
         })
     }
 
-    /// Of base, tip and each other part the groups to which it belongs, ascending.
+    /// Groups to which base, tip and each other part belong, ascending.
     pub(crate) fn groups(&self) -> Vec<Vec<u32>> {
         let mut of = vec![Vec::new(); 2 + self.others.len()];
         for (group, parts) in (0..).zip(&self.except) {

@@ -22,7 +22,7 @@ pub struct Touch {
     /// Bits of the shape, and bits of others that it touches: two shapes touch if the first of one and the second of the other share
     /// a bit.
     pub masks: [u32; 2],
-    /// Of two shapes the one with the higher priority decides the law.
+    /// Priority: that of two shapes with the higher one decides the law.
     pub priority: f64,
     /// Weight of its softness in the average of two shapes.
     pub mixing: f64,
@@ -116,7 +116,7 @@ impl TouchLaw {
 
 /// A body of the model that may touch others.
 pub(super) struct TouchingBody {
-    /// Its name in the model.
+    /// Name in the model.
     pub(super) name: String,
     pub(super) is_ground: bool,
     /// Links that are one body.
@@ -297,7 +297,7 @@ impl Shape {
     }
 }
 
-/// Of two laws of geoms of the same bodies the greater friction and the stiffer touch.
+/// Law with the greater friction and the stiffer touch of two geoms of the same bodies.
 fn stronger(one: TouchLaw, other: TouchLaw) -> TouchLaw {
     let stiffer = if other.per_mass()[0] > one.per_mass()[0] { other } else { one };
     TouchLaw { friction: one.friction.max(other.friction), ..stiffer }

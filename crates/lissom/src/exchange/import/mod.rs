@@ -3,6 +3,7 @@
 //! a model, which [`to_urdf`] writes.
 
 mod contacts;
+mod description;
 mod from_model;
 mod include;
 mod joint_text;
@@ -19,11 +20,11 @@ mod xml;
 
 use lissom_core::diagnostics::Diagnose;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6};
 
 pub use contacts::{ContactPair, ContactRules, Touch, TouchLaw};
+pub use description::{from_description, from_file};
 pub use from_model::{ModelRobot, from_model};
 pub use keyframes::Keyframe;
 pub use mjcf::from_mjcf;
@@ -33,36 +34,6 @@ pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
 pub use visuals::{Visual, VisualShape};
-
-/// Reads a robot from a URDF or MJCF file. Files that an MJCF includes are looked for in its folder.
-///
-/// # Errors
-/// If a file cannot be read, or as for [`from_description`].
-pub fn from_file(path: &Path) -> Result<Robot, ImportError> {
-    let text = include::with_included(path)?;
-    match xml::root_tag(&text)?.as_str() {
-        "mujoco" => mjcf::in_folder(&text, Some(path.parent().unwrap_or(Path::new("")))),
-        _ => from_description(&text),
-    }
-}
-
-/// Reads a robot from a URDF or MJCF text, distinguished by the root element.
-///
-/// Elements that cannot be converted are in [`Robot::obstacles`], so that all are reported at once.
-///
-/// # Errors
-/// If it is neither, or its structure is not that of a robot.
-pub fn from_description(text: &str) -> Result<Robot, ImportError> {
-    match xml::root_tag(text)?.as_str() {
-        "robot" => from_urdf(text),
-        "mujoco" => from_mjcf(text),
-        other => {
-            let message =
-                format!("this is neither URDF nor MJCF: its root is <{other}>, not <robot> or <mujoco>");
-            Err(ImportError::new(message))
-        }
-    }
-}
 
 /// The smallest rotation from z to a unit vector.
 fn from_z(direction: &Vector3) -> Rotation {

@@ -92,7 +92,7 @@ struct Group {
     mass: Option<LinkInertia>,
     /// Entries of its shape; an empty one draws nothing. None for a link without visuals.
     shapes: Option<Vec<String>>,
-    /// Its links.
+    /// Links of the body.
     links: Vec<usize>,
 }
 

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use lissom_motion::{Matrix3, Motion, Vector3};
 
+use super::super::model_text::carried;
 use super::super::{ImportError, LinkInertia, Visual, VisualShape, from_z};
 use super::element::Element;
 use super::frame;
@@ -44,7 +45,7 @@ const HARMLESS: &[&str] =
     &["material", "rgba", "hfield", "fitscale", "fluidshape", "fluidcoef", "user", "dclass"];
 /// Default density [kg/m³].
 const DENSITY: f64 = 1000.0;
-/// Largest group that is drawn unless the viewer is told otherwise.
+/// Largest group that is drawn by default.
 const LAST_DRAWN_GROUP: f64 = 2.0;
 
 /// A shape.
@@ -99,7 +100,7 @@ impl Geom {
             let mesh = meshes.of_geom(element)?;
             let wanted = mass.map_or(Density::Uniform(density), Density::Total);
             let own = mesh.inertia(element, is_shell, wanted)?;
-            return Ok(Some(super::carried(&own, &frame::frame(element, &self.settings.angles)?)));
+            return Ok(Some(carried(&own, &frame::frame(element, &self.settings.angles)?)));
         }
         if is_shell {
             return Err(

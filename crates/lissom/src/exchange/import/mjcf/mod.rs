@@ -20,7 +20,8 @@ use lissom_motion::{Matrix3, Motion, Vector3};
 use self::element::Element;
 use self::geom::Geom;
 use self::mesh::Meshes;
-use self::tree::{Node, Settings};
+use self::outside::Sites;
+use self::tree::{Inertias, Node, Settings};
 use super::model_text::{carried, together};
 use super::xml;
 use super::{ContactRules, Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, WeightCompensation};
@@ -96,27 +97,6 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
     Ok(robot)
 }
 
-/// Source of the inertia of a body.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Inertias {
-    Given,
-    GivenOrGeoms,
-    Geoms,
-}
-
-impl Inertias {
-    fn read(compiler: &Element) -> Result<Self, ImportError> {
-        match compiler.text("inertiafromgeom").unwrap_or("auto") {
-            "auto" => Ok(Self::GivenOrGeoms),
-            "true" => Ok(Self::Geoms),
-            "false" => Ok(Self::Given),
-            other => {
-                Err(compiler.fault(format!("`inertiafromgeom` must be true, false or auto, not `{other}`")))
-            }
-        }
-    }
-}
-
 struct Reader {
     meshes: Meshes,
     /// Tags of elements that are only drawn or measured.
@@ -126,9 +106,6 @@ struct Reader {
     softened: BTreeMap<&'static str, usize>,
     robot: Robot,
 }
-
-/// Sites by name: the link, and the point in its frame [m].
-pub(super) type Sites = BTreeMap<String, (usize, Vector3)>;
 
 /// Contents of a body.
 #[derive(Default)]

@@ -1,17 +1,20 @@
 //! Sections of an MJCF file other than bodies: those that are converted, and those that are reported.
 
+use std::collections::BTreeMap;
+
 use lissom_motion::Vector3;
 
 use super::super::xml::counted;
 use super::super::{Closure, ImportError, JointTendon, Keyframe, Motor, Robot, Rope};
-use super::Sites;
 use super::element::Element;
 use super::touching;
 use super::tree::Node;
 
+/// Sites by name: the link, and the point in its frame [m].
+pub(super) type Sites = BTreeMap<String, (usize, Vector3)>;
+
 /// Sections that do not affect the motion.
-const SHOWN: [&str; 8] =
-    ["size", "visual", "statistic", "asset", "custom", "sensor", "keyframe", "extension"];
+const SHOWN: [&str; 7] = ["size", "visual", "statistic", "asset", "custom", "sensor", "extension"];
 /// Settings of a compiler that change masses, and their values without effect.
 const MASS_SETTINGS: [(&str, &[&str]); 3] =
     [("boundmass", &["0"]), ("boundinertia", &["0"]), ("balanceinertia", &["false"])];

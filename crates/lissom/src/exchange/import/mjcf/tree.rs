@@ -11,7 +11,28 @@ use super::super::ImportError;
 use super::super::xml::SOURCE;
 use super::element::{Classes, Element};
 use super::frame::Angles;
-use super::{Inertias, outside};
+use super::outside;
+
+/// Source of the inertia of a body.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Inertias {
+    Given,
+    GivenOrGeoms,
+    Geoms,
+}
+
+impl Inertias {
+    pub(super) fn read(compiler: &Element) -> Result<Self, ImportError> {
+        match compiler.text("inertiafromgeom").unwrap_or("auto") {
+            "auto" => Ok(Self::GivenOrGeoms),
+            "true" => Ok(Self::Geoms),
+            "false" => Ok(Self::Given),
+            other => {
+                Err(compiler.fault(format!("`inertiafromgeom` must be true, false or auto, not `{other}`")))
+            }
+        }
+    }
+}
 
 /// Settings of a file, which differ between a model and those that it attaches.
 pub(super) struct Settings {
