@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use lissom_motion::Vector3;
 
-use super::model_text::{Options, list};
-use super::{Closure, Freedom, RobotJoint};
+use super::model_text::Options;
+use super::{Closure, Freedom, RobotJoint, list};
 
 /// The coordinate of a robot's joint in the model.
 pub(super) struct Placed {

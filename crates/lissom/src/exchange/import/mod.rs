@@ -35,6 +35,12 @@ pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
 pub use visuals::{Visual, VisualShape};
 
+/// Numbers for the model file, without the sign of negative zeros.
+fn list(vector: &Vector3) -> String {
+    let [x, y, z] = [vector.x + 0.0, vector.y + 0.0, vector.z + 0.0];
+    format!("[{x:?}, {y:?}, {z:?}]")
+}
+
 /// The smallest rotation from z to a unit vector.
 fn from_z(direction: &Vector3) -> Rotation {
     let across = Vector3::z().cross(direction);

@@ -19,7 +19,7 @@ use super::joint_text::{
 use super::massless::{Massless, without_mass};
 use super::motors::{Motors, write_motors};
 use super::start::{Start, prefix};
-use super::{Closure, Freedom, ImportError, LinkInertia, Pose, Robot};
+use super::{Closure, Freedom, ImportError, LinkInertia, Pose, Robot, list};
 
 /// Treatment of the root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -648,12 +648,6 @@ pub fn omissions(robot: &Robot, options: Options) -> Vec<String> {
     all.extend(robot.meshes_left_out());
     all.extend(robot.unsupported.iter().cloned());
     all
-}
-
-/// Numbers for the model file, without the sign of negative zeros.
-pub(super) fn list(vector: &Vector3) -> String {
-    let [x, y, z] = [vector.x + 0.0, vector.y + 0.0, vector.z + 0.0];
-    format!("[{x:?}, {y:?}, {z:?}]")
 }
 
 /// A body, or the shape of the ground; `own` is its name in the model, `link` in the description.

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use lissom_model::toml_text::quoted;
 use lissom_motion::{Motion, Vector3};
 
-use super::model_text::list;
-use super::{Link, Robot, Touch};
+use super::{Link, Robot, Touch, list};
 
 /// Formats of meshes that can be drawn.
 const DRAWN: [&str; 3] = ["stl", "gltf", "glb"];
