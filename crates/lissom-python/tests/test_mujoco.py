@@ -242,9 +242,9 @@ def test_equations_of_motion_of_a_robot_that_floats_are_those_of_mujoco(program:
         assert np.allclose(found[1], v, rtol=0, atol=1e-12)
         data = mujoco.MjData(reference)
         data.qpos[:], data.qvel[:] = q, v
-        turn = np.zeros(9)
-        mujoco.mju_quat2Mat(turn, q[3:7])
-        turn = turn.reshape(3, 3)
+        entries = np.zeros(9)
+        mujoco.mju_quat2Mat(entries, q[3:7])
+        turn = entries.reshape(3, 3)
         into = np.eye(9)
         into[:3, :3] = turn
         data.qvel[:3] = turn @ v[:3]
