@@ -302,6 +302,42 @@ mod tests {
         assert!(page.contains(&figure), "docs/measured.md does not say: {figure}");
     }
 
+    /// Each value over the one before has this exponent of the parameter.
+    fn assert_exponent(at: &[f64], values: &[f64], wanted: f64) {
+        for (at, values) in at.windows(2).zip(values.windows(2)) {
+            let exponent = (values[1] / values[0]).ln() / (at[1] / at[0]).ln();
+            assert!((exponent - wanted).abs() < 0.1, "{exponent} from {at:?}: {values:?}");
+        }
+    }
+
+    fn assert_flat(values: &[f64]) {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = values.iter().copied().fold(0.0, f64::max);
+        assert!(least > 1.0 && most < 1.2 * least, "{values:?}");
+    }
+
+    #[test]
+    fn condition_numbers_over_the_step_size() {
+        let steps = ["1e-1", "5e-2", "1e-2", "5e-3", "1e-3", "5e-4", "1e-4", "5e-5", "1e-5"];
+        let rows = conditions(&Studio::silent(), "pendulum", &with_steps(&steps, &[])).unwrap();
+        assert_eq!(rows.len(), 9);
+        assert_exponent(&steps.map(|step| step.parse().unwrap()), &column(&rows, 0), -4.0);
+        // Far beyond what double precision sees.
+        assert!(rows[8][0] > 1e20);
+        assert_flat(&column(&rows, 1));
+        assert_flat(&column(&rows, 2));
+    }
+
+    #[test]
+    fn condition_numbers_over_the_mass() {
+        let masses = ["1e-2", "1e-1", "1", "1e1", "1e2", "1e3", "1e4"];
+        let rows = conditions(&Studio::silent(), "pendulum", &with_values(MASS, &masses)).unwrap();
+        let at: [f64; 7] = masses.map(|mass| mass.parse().unwrap());
+        assert_exponent(&at, &column(&rows, 0), 2.0);
+        assert_exponent(&at[3..], &column(&rows, 1)[3..], 2.0);
+        assert_flat(&column(&rows, 2));
+    }
+
     /// The scheme behind the published tables is not known. A spectral radius of 0 and a penalty of 1/2 come close,
     /// with the masses of the second table ten times their label.
     #[test]

@@ -142,6 +142,22 @@ mod tests {
     }
 
     #[test]
+    fn tiny_steps_leave_reactions_smooth() {
+        let model = Studio::silent().example("pendulum").unwrap();
+        let at = |size| {
+            let history =
+                |finer| history(&model, "pendulum", ("force", "generalized-alpha"), size, finer).unwrap();
+            measure(&history(1), &history(8), &history(4))
+        };
+        // At 1 ms the output bends: omega^2 h^2 of about 10 rad^2/s^2.
+        let coarse = at(1e-3);
+        assert!(coarse.noise > 1e-6 && coarse.noise < 1e-3, "{coarse:?}");
+        assert!(coarse.error > 1e-7 && coarse.doubt <= 0.5 * coarse.error, "{coarse:?}");
+        let fine = at(1e-7);
+        assert!(fine.noise < 1e-6 && fine.error < 1e-6, "{fine:?}");
+    }
+
+    #[test]
     fn reactions_keep_their_digits_however_small_the_step() {
         let studio = Studio::silent();
         for (example, output, scheme, sizes, bound) in [
