@@ -30,7 +30,8 @@ pub struct Surface {
 
 /// A file that is no surface.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum SurfaceError {
+#[non_exhaustive]
+pub enum SurfaceError {
     /// It is of no format that is known.
     #[error(
         "it is neither a glTF file nor an STL file, with as many triangles as it says or of `facet` and `vertex`"
@@ -203,7 +204,10 @@ impl Surface {
 
     /// Reads an STL or a glTF file, which its first bytes decide; `beside` reads the buffers that a glTF file names. Corners
     /// at one place become one point.
-    pub(crate) fn of_file(
+    ///
+    /// # Errors
+    /// If it is none of both, has no triangles or too many, or a corner is not finite.
+    pub fn of_file(
         bytes: &[u8],
         beside: &dyn Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self, SurfaceError> {

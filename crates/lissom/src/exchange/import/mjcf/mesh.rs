@@ -1,4 +1,4 @@
-//! Meshes of MJCF: triangles of STL, OBJ and MSH files or of the description itself, their volume and inertia, and their hull.
+//! Meshes of MJCF: triangles of STL, glTF, OBJ and MSH files or of the description itself, their volume and inertia, and their hull.
 //!
 //! With the corners a, b, c of a triangle from a point o, its pyramid has the volume V = (a × b)·c/6, the centre (a + b + c)/4, and
 //!
@@ -16,6 +16,7 @@ use std::rc::Rc;
 
 use lissom_core::contact::geometry::surfaces::Mesh as Hull;
 use lissom_model::files;
+use lissom_model::scene::Surface;
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::super::{ImportError, LinkInertia, VisualShape};
@@ -120,6 +121,9 @@ impl Mesh {
                     return Err(own.fault("`face` must be three indices for each triangle"));
                 }
                 let corners = values.chunks_exact(3).map(|c| Vector3::new(c[0], c[1], c[2])).collect();
+                if faces.iter().any(|index| *index < 0.0 || index.fract() != 0.0) {
+                    return Err(own.fault("`face` must be indices of vertices, from 0"));
+                }
                 let index = |face: &[f64]| [face[0] as usize, face[1] as usize, face[2] as usize];
                 (corners, faces.chunks_exact(3).map(index).collect(), None)
             }
@@ -331,16 +335,16 @@ fn of_file(asset: &Node, name: &str) -> Result<(Triangles, String), ImportError>
     let bytes = files::read_input(&path).map_err(|error| own.fault(format!("`{name}`: {error}")))?;
     let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let read = match ending.as_deref().unwrap_or_default() {
-        "stl" => stl(&bytes),
-        "obj" => std::str::from_utf8(&bytes).ok().and_then(obj),
-        "msh" => msh(&bytes),
+        "stl" | "gltf" | "glb" => drawn(&bytes, path.parent().unwrap_or(Path::new(""))),
+        "obj" => obj(&bytes),
+        "msh" => msh(&bytes).ok_or_else(|| "it is no valid mesh of this format".to_owned()),
         other => {
-            let message = format!("the format `{other}` of the mesh `{name}` is unknown: stl, obj or msh");
+            let message =
+                format!("the format `{other}` of the mesh `{name}` is unknown: stl, gltf, obj or msh");
             return Err(own.fault(message));
         }
     };
-    let (corners, triangles) =
-        read.ok_or_else(|| own.fault(format!("`{name}` is no valid mesh of this format")))?;
+    let (corners, triangles) = read.map_err(|error| own.fault(format!("`{name}`: {error}")))?;
     let finite = corners.iter().all(|corner: &Vector3| corner.iter().all(|value| value.is_finite()));
     if !finite {
         return Err(own.fault(format!("`{name}` has vertices that are not finite")));
@@ -352,56 +356,23 @@ fn float(bytes: &[u8], at: usize) -> Option<f64> {
     Some(f64::from(f32::from_le_bytes(*bytes.get(at..at + 4)?.first_chunk()?)))
 }
 
-/// Triangles of an STL file, of numbers or of words.
-fn stl(bytes: &[u8]) -> Option<Triangles> {
-    let mut corners: Vec<Vector3> = Vec::new();
-    let count = bytes.get(80..84).and_then(|own| Some(u32::from_le_bytes(*own.first_chunk()?) as usize));
-    if let Some(count) = count.filter(|count| Some(bytes.len()) == count.checked_mul(50).map(|own| own + 84))
-    {
-        for corner in 0..3 * count {
-            let at = 84 + 50 * (corner / 3) + 12 + 12 * (corner % 3);
-            corners.push(Vector3::new(float(bytes, at)?, float(bytes, at + 4)?, float(bytes, at + 8)?));
-        }
-    } else {
-        let mut words = std::str::from_utf8(bytes).ok()?.split_ascii_whitespace();
-        while let Some(word) = words.next() {
-            if word == "vertex" {
-                let mut number = || words.next()?.parse::<f64>().ok();
-                corners.push(Vector3::new(number()?, number()?, number()?));
-            }
-        }
-    }
-    let triangles = (0..corners.len() / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-    Some((corners, triangles))
+/// Triangles of an STL or glTF file, as they are drawn.
+fn drawn(bytes: &[u8], folder: &Path) -> Result<Triangles, String> {
+    let beside = |name: &str| files::read_input(&folder.join(name)).map_err(|error| error.to_string());
+    let surface = Surface::of_file(bytes, &beside).map_err(|error| error.to_string())?;
+    let corners = surface.points.iter().map(|point| Vector3::from(point.map(f64::from)));
+    let triangles = surface.triangles.iter().map(|own| own.map(|index| index as usize));
+    Ok((corners.collect(), triangles.collect()))
 }
 
-/// Triangles of an OBJ file; faces with more corners are divided from their first one.
-fn obj(text: &str) -> Option<Triangles> {
-    let (mut corners, mut triangles) = (Vec::new(), Vec::new());
-    for line in text.lines() {
-        let mut words = line.split_ascii_whitespace();
-        match words.next() {
-            Some("v") => {
-                let mut number = || words.next()?.parse::<f64>().ok();
-                corners.push(Vector3::new(number()?, number()?, number()?));
-            }
-            Some("f") => {
-                let mut face = Vec::new();
-                for word in words {
-                    let index: isize = word.split('/').next()?.parse().ok()?;
-                    // Negative indices count from the last vertex so far.
-                    face.push(match index {
-                        0 => return None,
-                        1.. => index.unsigned_abs() - 1,
-                        _ => corners.len().checked_sub(index.unsigned_abs())?,
-                    });
-                }
-                triangles.extend((2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
-            }
-            _ => {}
-        }
-    }
-    Some((corners, triangles))
+/// Triangles of an OBJ file.
+fn obj(bytes: &[u8]) -> Result<Triangles, String> {
+    let mesh = lissom_mesh::read(bytes, "obj").map_err(|error| error.to_string())?;
+    let corners = mesh.positions.iter().map(|position| Vector3::from(*position)).collect();
+    let faces = mesh.elements.iter().map(|element| element.nodes.as_slice());
+    let divided =
+        |face: &[usize]| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
+    Ok((corners, faces.flat_map(divided).collect()))
 }
 
 /// Triangles of the binary format of MuJoCo.
