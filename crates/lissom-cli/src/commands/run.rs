@@ -140,7 +140,7 @@ impl Run {
         let (folder, mut record) = task.open().map_err(unwritable)?;
         let recorder = task
             .plots
-            .then(|| MotionRecorder::new(&lowered, document.analysis.frames_per_second, io::sink()));
+            .then(|| MotionRecorder::new(&lowered, document.analysis.records.frames_per_second, io::sink()));
         let scene = task.plots.then(|| Scene::of(&document, &lowered.placed()));
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = task.summary(&document, &lowered);

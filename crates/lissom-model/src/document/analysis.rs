@@ -129,7 +129,6 @@ pub enum Scaling {
 
 /// Kind of analysis and its settings.
 #[derive(Clone, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the model file")]
 pub struct Analysis {
     /// Dynamics or statics.
     pub kind: AnalysisKind,
@@ -143,14 +142,8 @@ pub struct Analysis {
     pub start: f64,
     /// Last time [s].
     pub end: f64,
-    /// How the equations are scaled.
-    pub scaling: Scaling,
-    /// Whether rows and columns of the scaled tangent are brought to one size.
-    pub equilibrated: bool,
-    /// Whether the augmented Lagrangian term is added.
-    pub augmented: bool,
-    /// Factor of the augmented term.
-    pub penalty: f64,
+    /// How the tangent is scaled and augmented.
+    pub conditioning: Conditioning,
     /// Word of the linear solver, if the registry has any.
     pub solver: Option<Located<String>>,
     /// Tolerance of Newton's iteration in scaled units.
@@ -159,12 +152,8 @@ pub struct Analysis {
     pub max_iterations: usize,
     /// Disabled features of the nonlinear solver, for studies.
     pub disabled: DisabledFeatures,
-    /// Steps from one record to the next; none for each step, or for instants that suit adaptive steps.
-    pub output_every: Option<usize>,
-    /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
-    pub frames_per_second: Option<f64>,
-    /// Part of the records from which statistics are computed.
-    pub statistics_window: TimeWindow,
+    /// What is recorded of a run.
+    pub records: Records,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
     /// Path in the model file of the number varied along an equilibrium path; none for the load factor.
@@ -173,6 +162,30 @@ pub struct Analysis {
     pub ramp: bool,
     /// The word `analysis`.
     pub span: Span,
+}
+
+/// Scaling of the equations, and the augmented Lagrangian term: what the condition of the tangent depends on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditioning {
+    /// How the equations are scaled.
+    pub scaling: Scaling,
+    /// Whether rows and columns of the scaled tangent are brought to one size.
+    pub equilibrated: bool,
+    /// Whether the augmented Lagrangian term is added.
+    pub augmented: bool,
+    /// Factor of the augmented term.
+    pub penalty: f64,
+}
+
+/// Instants of a run that are recorded, and those of which statistics are computed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Records {
+    /// Steps from one record to the next; none for each step, or for instants that suit adaptive steps.
+    pub output_every: Option<usize>,
+    /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
+    pub frames_per_second: Option<f64>,
+    /// Part of the records from which statistics are computed.
+    pub statistics_window: TimeWindow,
 }
 
 pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Analysis> {
@@ -229,21 +242,17 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         scheme,
         parameters,
         contacts,
-        scaling,
-        equilibrated: reader.flag("equilibrated")?.value,
-        augmented: reader.flag("augmented")?.value,
-        penalty: reader.number("penalty")?.value,
+        conditioning: Conditioning {
+            scaling,
+            equilibrated: reader.flag("equilibrated")?.value,
+            augmented: reader.flag("augmented")?.value,
+            penalty: reader.number("penalty")?.value,
+        },
         solver,
         tolerance,
         max_iterations: reader.count("max_iterations")?.value,
         disabled: disabled(&reader),
-        output_every: if is_run { reader.count("output_every").map(|count| count.value) } else { None },
-        frames_per_second: if is_run {
-            reader.number("frames_per_second").map(|rate| rate.value)
-        } else {
-            None
-        },
-        statistics_window: TimeWindow::default(),
+        records: if is_run { records(&reader) } else { Records::default() },
         energy_check: !dynamics || reader.flag("energy_check")?.value,
         vary: if word == "path" { reader.text("vary").map(|path| path.map(str::to_owned)) } else { None },
         ramp: word == "statics" && reader.flag("ramp")?.value,
@@ -255,9 +264,18 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     check_times(context, &analysis, end?.span);
     check_frames(&reader, &analysis);
     if is_run && analysis.end > analysis.start {
-        analysis.statistics_window = statistics_window(&reader, &analysis).unwrap_or_default();
+        analysis.records.statistics_window = statistics_window(&reader, &analysis).unwrap_or_default();
     }
     Some(analysis)
+}
+
+/// What is recorded, except the window of statistics.
+fn records(reader: &Reader<'_, '_>) -> Records {
+    Records {
+        output_every: reader.count("output_every").map(|count| count.value),
+        frames_per_second: reader.number("frames_per_second").map(|rate| rate.value),
+        ..Records::default()
+    }
 }
 
 fn statistics_window(reader: &Reader<'_, '_>, analysis: &Analysis) -> Option<TimeWindow> {
@@ -397,7 +415,7 @@ fn check_times(context: &Context<'_>, analysis: &Analysis, end: Span) {
 const MAX_FRAMES: f64 = 100_000.0;
 
 fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
-    let Some(rate) = analysis.frames_per_second else { return };
+    let Some(rate) = analysis.records.frames_per_second else { return };
     let Some(node) = reader.node("frames_per_second") else { return };
     let duration = analysis.end - analysis.start;
     if rate * duration > MAX_FRAMES {

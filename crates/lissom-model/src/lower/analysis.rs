@@ -106,14 +106,14 @@ pub fn settings(document: &Document) -> Result<(Settings, Plan), Problem> {
         step_size,
         control,
         scaling: ScalingChoice {
-            by: match analysis.scaling {
+            by: match analysis.conditioning.scaling {
                 Scaling::Physical => ScaleBy::Physical,
                 Scaling::Unit => ScaleBy::Unit,
                 Scaling::None => ScaleBy::None,
             },
-            equilibrated: analysis.equilibrated,
-            augmented: analysis.augmented,
-            penalty: analysis.penalty,
+            equilibrated: analysis.conditioning.equilibrated,
+            augmented: analysis.conditioning.augmented,
+            penalty: analysis.conditioning.penalty,
         },
         limits: Limits {
             tolerance: analysis.tolerance,
@@ -128,7 +128,7 @@ pub fn settings(document: &Document) -> Result<(Settings, Plan), Problem> {
         energy_check: analysis.energy_check,
     };
     let is_static = !matches!(analysis.kind, AnalysisKind::Dynamics { .. });
-    let records = match (analysis.output_every, choice) {
+    let records = match (analysis.records.output_every, choice) {
         (every, Some(choice)) if !is_static && (every.is_none() || choice.output_step.is_some()) => {
             Records::of_chosen_steps(&settings.scheme, choice.output_step, duration)
         }

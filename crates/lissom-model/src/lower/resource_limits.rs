@@ -102,7 +102,7 @@ fn steps(document: &Document, problems: &mut Vec<Problem>) {
         // Steps of chosen size are few, and load steps are limited by the reader.
         _ => return,
     };
-    let rows = steps / analysis.output_every.unwrap_or(1) as f64;
+    let rows = steps / analysis.records.output_every.unwrap_or(1) as f64;
     let columns = 1.0 + 3.0 * document.outputs.len() as f64;
     let table = PER_NUMBER * rows * columns;
     if steps > MAX_STEPS {

@@ -122,7 +122,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         settings,
         plan,
         channels,
-        statistics_window: document.analysis.statistics_window.clone(),
+        statistics_window: document.analysis.records.statistics_window.clone(),
         accumulated,
         not_unique,
         names,

@@ -241,7 +241,7 @@ fn results(model: &Model, is_current: &dyn Fn() -> bool) -> Result<Option<Result
     let scene = Scene::of(&document, &lowered.placed());
     let mut summary = summary::of_model(model, &document, &lowered);
     let motion = Buffer::default();
-    let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, motion.clone());
+    let recorder = MotionRecorder::new(&lowered, document.analysis.records.frames_per_second, motion.clone());
     let mut session = Session::start(lowered).map_err(|error| Notice::of(&error))?;
     session.write_states_to(Box::new(recorder));
     let mut record = Record::default();
