@@ -52,7 +52,7 @@ impl System {
         for batch in &self.batches {
             batch.forces(point.at, out);
         }
-        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+        for (batch, starts) in self.joint_lanes.batches.with_starts(point.increments.joints) {
             let blocks = 0..batch.indices().len().div_ceil(WIDTH);
             batch.evaluate(Wanted::All, point, starts, blocks, &mut |block, results| {
                 for (lane, item) in batch.block_items(block).enumerate() {
@@ -70,7 +70,7 @@ impl System {
         for batch in &self.batches {
             batch.forces_side_by_side(point.at, threads, out);
         }
-        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+        for (batch, starts) in self.joint_lanes.batches.with_starts(point.increments.joints) {
             let firsts = batch.starts();
             let locals = threads.side_by_side(firsts, &|joints, locals| {
                 let first = firsts[joints.start];
@@ -93,12 +93,13 @@ impl System {
 
     /// Rows of a joint's local unknowns and equations.
     pub fn rows_of_joint(&self, joint: usize) -> &[u32] {
-        &self.joint_slots.rows[self.joint_slots.starts[joint]..self.joint_slots.starts[joint + 1]]
+        &self.joint_lanes.slots.rows
+            [self.joint_lanes.slots.starts[joint]..self.joint_lanes.slots.starts[joint + 1]]
     }
 
     /// Only the violations at `point`, by multiplier.
     pub fn stage_violations(&self, point: &Point<'_>, out: &mut [f64]) {
-        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+        for (batch, starts) in self.joint_lanes.batches.with_starts(point.increments.joints) {
             let blocks = 0..batch.indices().len().div_ceil(WIDTH);
             batch.evaluate(Wanted::Violations, point, starts, blocks, &mut |block, results| {
                 for (lane, item) in batch.block_items(block).enumerate() {
@@ -210,7 +211,7 @@ impl System {
         scratch: &mut Derivatives,
         out: &mut TangentAssembler<'_>,
     ) {
-        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+        for (batch, starts) in self.joint_lanes.batches.with_starts(point.increments.joints) {
             batch.linearize(
                 &self.constraints.joints,
                 point,
@@ -220,7 +221,7 @@ impl System {
                 &mut |index, derivatives| {
                     let place = Slot {
                         rows: self.rows_of_joint(index),
-                        segments: self.joint_slots.positions.of(index),
+                        segments: self.joint_lanes.slots.positions.of(index),
                     };
                     out.add_joint(place, derivatives);
                 },

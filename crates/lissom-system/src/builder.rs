@@ -23,7 +23,7 @@ use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
-use super::{ElementId, GivenVelocities, JointSlots, System};
+use super::{ElementId, GivenVelocities, JointLanes, JointSlots, System};
 use lissom_contact::set::ContactSet;
 use lissom_flexible::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass};
@@ -462,14 +462,16 @@ impl Builder {
         let system = System {
             layout,
             batches,
-            joint_batches: Batches::new(&self.constraints.joints),
+            joint_lanes: JointLanes {
+                batches: Batches::new(&self.constraints.joints),
+                slots: JointSlots { rows: joint_rows.concat(), starts, positions },
+            },
             constraints: self.constraints,
             placed,
             contacts: Arc::new(self.contacts),
             coordinate_masses: self.coordinate_masses,
             free_coordinates: self.free_coordinates,
             structure,
-            joint_slots: JointSlots { rows: joint_rows.concat(), starts, positions },
             inertias,
             gravity: self.model.gravity,
             feedback,

@@ -463,7 +463,7 @@ impl System {
         starts: &JointStarts,
         [rates, accelerations]: [&mut [f64]; 2],
     ) {
-        for (batch, starts) in self.joint_batches.with_starts(Some(starts)) {
+        for (batch, starts) in self.joint_lanes.batches.with_starts(Some(starts)) {
             batch.violation_rates(at, starts.unwrap_or_default(), &mut |block, found| {
                 for (lane, item) in batch.block_items(block).enumerate() {
                     let joint = &self.constraints.joints[batch.indices()[item] as usize];

@@ -72,8 +72,8 @@ pub struct System {
     pub batches: Vec<Arc<dyn AnyBatch>>,
     /// All constraints.
     pub constraints: Constraints,
-    /// The joints by kind, in lanes.
-    pub joint_batches: Batches,
+    /// The joints as they are evaluated.
+    pub joint_lanes: JointLanes,
     /// Location of constraints that are not evaluated in lanes.
     pub placed: Vec<Placed>,
     /// Mass matrices of coordinates within elements.
@@ -86,8 +86,6 @@ pub struct System {
     pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.
     pub structure: Structure,
-    /// Rows and positions of the joints.
-    pub joint_slots: JointSlots,
     /// Inertia of bodies and lumped masses of beams.
     pub inertias: Vec<Inertia>,
     /// Gravity.
@@ -109,6 +107,14 @@ pub struct GivenVelocities {
     pub nodes: Vec<NodeId>,
     /// Coordinates of joints.
     pub coordinates: Vec<CoordinateId>,
+}
+
+/// Joints by kind, evaluated several at a time, and where their equations are.
+pub struct JointLanes {
+    /// Joints by kind, in lanes.
+    batches: Batches,
+    /// Rows and positions of the joints.
+    slots: JointSlots,
 }
 
 /// Rows of every joint's local unknowns and equations, and the positions of its local matrix in the tangent.
@@ -146,7 +152,7 @@ impl System {
     /// Stores data of joints at the start of a step.
     #[inline]
     pub fn begin_step(&self, start: &Kinematics, out: &mut JointStarts) {
-        self.joint_batches.begin(start, out);
+        self.joint_lanes.batches.begin(start, out);
     }
 
     /// All prescribed coordinates.
@@ -306,7 +312,7 @@ impl System {
     /// Offset of each item's local values, for every batch of elements and every batch of joints.
     pub fn starts_of_batches(&self) -> impl Iterator<Item = &[usize]> {
         let elements = self.batches.iter().map(|batch| batch.rows().starts());
-        elements.chain(self.joint_batches.iter().map(JointBatch::starts))
+        elements.chain(self.joint_lanes.batches.iter().map(JointBatch::starts))
     }
 
     /// Work of loads between two configurations [J], for forces that change linearly in time between them and positions
