@@ -134,7 +134,8 @@ fn everything_is_what_its_file_says() {
     assert_eq!(plate.axes * Vector3::x(), Vector3::y());
     let top = &document.bodies[0];
     assert!((top.axes * Vector3::x() - Vector3::y()).norm() < 1e-14);
-    assert_eq!(document.node_position(&NodeReference::PointMass("bob".to_owned())), Some(-Vector3::z()));
+    let bob = document.point_masses.iter().find(|mass| mass.name.value == "bob").unwrap();
+    assert_eq!(bob.position, -Vector3::z());
     let push = &document.loads[0].parameters;
     assert!((push.function("scale").unwrap().value(1.0) - 2.0).abs() < 1e-15);
     assert!(push.flag("follower").unwrap());

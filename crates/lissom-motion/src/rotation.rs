@@ -44,23 +44,6 @@ impl Rotation {
         Versor::from(self).logarithm().into()
     }
 
-    /// This rotation with the quaternion that has a positive scalar part.
-    #[inline]
-    fn with_positive_scalar(self) -> Self {
-        if self.scalar > 0.0 { self } else { self.negated_or_half_turn() }
-    }
-
-    #[cold]
-    #[inline]
-    fn negated_or_half_turn(self) -> Self {
-        let first = self.vector.iter().copied().find(|&component| component != 0.0).unwrap_or(0.0);
-        if self.scalar < 0.0 || first < 0.0 {
-            Self { scalar: -self.scalar, vector: -self.vector }
-        } else {
-            Self { scalar: 0.0, vector: self.vector }
-        }
-    }
-
     /// The inverse rotation.
     #[inline]
     pub fn inverse(&self) -> Self {
@@ -178,16 +161,6 @@ impl Rotation {
         let half = r * 0.5;
         let scalar = 1.0 / (1.0 + half.norm_squared()).sqrt();
         Self { scalar, vector: half * scalar }
-    }
-
-    /// The vector `r` with `cayley(r)` equal to this rotation, `|r| = 2 tan(angle/2)`.
-    ///
-    /// A half turn has none: `r` is then a finite vector so long that its Cayley map is the half turn to the last
-    /// digit.
-    #[inline]
-    pub fn inverse_cayley(&self) -> Vector3 {
-        let Self { scalar, vector } = self.with_positive_scalar();
-        vector * (2.0 / scalar.max(1e-100))
     }
 
     /// This rotation with the quaternion normalised.

@@ -156,22 +156,6 @@ impl Pattern {
             }
         }
     }
-
-    /// `product = Aᵀ x` for the matrix with these values.
-    ///
-    /// # Panics
-    /// If a slice has the wrong length.
-    pub fn multiply_transposed<S: Scalar>(&self, values: &[S], vector: &[S], product: &mut [S]) {
-        assert!(values.len() == self.entries() && vector.len() == self.size && product.len() == self.size);
-        for (column, result) in product.iter_mut().enumerate() {
-            let range = self.column_starts[column]..self.column_starts[column + 1];
-            let mut sum = S::zero();
-            for (&row, &value) in self.row_indices[range.clone()].iter().zip(&values[range]) {
-                sum += value * vector[row];
-            }
-            *result = sum;
-        }
-    }
 }
 
 #[cfg(test)]

@@ -286,13 +286,16 @@ pub fn backward_error<S: Scalar>(pattern: &Pattern, values: &[S], x: &[S], b: &[
     let mut product = vec![S::zero(); b.len()];
     let sizes: Vec<f64> = values.iter().map(|value| value.magnitude()).collect();
     let mut row_sums = vec![0.0; b.len()];
-    let ones = vec![1.0; b.len()];
     if transposed {
-        pattern.multiply_transposed(values, x, &mut product);
-        pattern.multiply_transposed(&sizes, &ones, &mut row_sums);
+        for column in 0..pattern.size() {
+            for entry in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                product[column] += values[entry] * x[pattern.row_indices()[entry]];
+                row_sums[column] += sizes[entry];
+            }
+        }
     } else {
         pattern.multiply(values, x, &mut product);
-        pattern.multiply(&sizes, &ones, &mut row_sums);
+        pattern.multiply(&sizes, &vec![1.0; b.len()], &mut row_sums);
     }
     let largest = |numbers: &[S]| numbers.iter().fold(0.0, |largest: f64, x| largest.max(x.magnitude()));
     let norm = row_sums.iter().fold(0.0, |largest: f64, &sum| largest.max(sum));

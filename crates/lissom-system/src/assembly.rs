@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use lissom_motion::WIDTH;
 
-use super::System;
+use super::{JointLanes, System};
 use lissom_mechanics::elements::Deformable;
 use lissom_mechanics::evaluation::batch::{AnyBatch, scatter, scatter_lane};
 use lissom_mechanics::evaluation::linearization::{Linearization, Scratch};
@@ -93,8 +93,8 @@ impl System {
 
     /// Rows of a joint's local unknowns and equations.
     pub fn rows_of_joint(&self, joint: usize) -> &[u32] {
-        &self.joint_lanes.slots.rows
-            [self.joint_lanes.slots.starts[joint]..self.joint_lanes.slots.starts[joint + 1]]
+        let JointLanes { rows, starts, .. } = &self.joint_lanes;
+        &rows[starts[joint]..starts[joint + 1]]
     }
 
     /// Only the violations at `point`, by multiplier.
@@ -221,7 +221,7 @@ impl System {
                 &mut |index, derivatives| {
                     let place = Slot {
                         rows: self.rows_of_joint(index),
-                        segments: self.joint_lanes.slots.positions.of(index),
+                        segments: self.joint_lanes.positions.of(index),
                     };
                     out.add_joint(place, derivatives);
                 },

@@ -23,7 +23,7 @@ use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
-use super::{ElementId, GivenVelocities, JointLanes, JointSlots, System};
+use super::{ElementId, GivenVelocities, JointLanes, System};
 use lissom_contact::set::ContactSet;
 use lissom_flexible::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass};
@@ -464,7 +464,9 @@ impl Builder {
             batches,
             joint_lanes: JointLanes {
                 batches: Batches::new(&self.constraints.joints),
-                slots: JointSlots { rows: joint_rows.concat(), starts, positions },
+                rows: joint_rows.concat(),
+                starts,
+                positions,
             },
             constraints: self.constraints,
             placed,

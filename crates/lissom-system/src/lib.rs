@@ -109,21 +109,15 @@ pub struct GivenVelocities {
     pub coordinates: Vec<CoordinateId>,
 }
 
-/// Joints by kind, evaluated several at a time, and where their equations are.
+/// Joints by kind, several evaluated at a time, and where their equations are.
 pub struct JointLanes {
     /// Joints by kind, in lanes.
     batches: Batches,
-    /// Rows and positions of the joints.
-    slots: JointSlots,
-}
-
-/// Rows of every joint's local unknowns and equations, and the positions of its local matrix in the tangent.
-pub struct JointSlots {
-    /// Rows, concatenated.
+    /// Rows of every joint's local unknowns and equations, concatenated.
     rows: Vec<u32>,
     /// Offset of each joint's rows.
     starts: Vec<usize>,
-    /// Positions in the pattern.
+    /// Positions of every joint's local matrix in the tangent.
     positions: ScatterMap,
 }
 

@@ -57,7 +57,6 @@ pub use crate::format::top_level::VERSION;
 pub use crate::outputs::entry::{Output, OutputSource, ReactionAxes};
 pub use crate::outputs::kinds::OutputKind;
 pub(crate) use crate::outputs::kinds::{Feature, Subject};
-use crate::reading::mesh_nodes::position_of;
 pub use crate::reading::node_reference::{MeshPlace, NodeReference, interface_name};
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
@@ -221,27 +220,6 @@ impl Document {
     /// The shell called `name`.
     pub fn shell(&self, name: &str) -> Option<&Shell> {
         self.shells.iter().find(|shell| shell.name.value == name)
-    }
-
-    /// Position of a node at the start [m]; the ground's is the origin, that of several nodes their mean.
-    pub fn node_position(&self, node: &NodeReference) -> Option<Vector3> {
-        match node {
-            NodeReference::Ground => Some(Vector3::zeros()),
-            NodeReference::Body(name) => {
-                self.bodies.iter().find(|body| body.name.value == *name).map(|body| body.position)
-            }
-            NodeReference::PointMass(name) => {
-                self.point_masses.iter().find(|mass| mass.name.value == *name).map(|mass| mass.position)
-            }
-            NodeReference::Beam { beam, fraction } => {
-                self.beam(beam).map(|beam| beam.line.position(*fraction))
-            }
-            NodeReference::Mesh { part, place } => position_of(self.mesh(part)?, place),
-            NodeReference::Interface { superelement, interface } => {
-                let found = self.superelements.iter().find(|own| own.name.value == *superelement)?;
-                found.place_of(interface)
-            }
-        }
     }
 }
 

@@ -52,7 +52,7 @@ fn nothing_is_ever_not_finite() {
                 finite([rotation_exponential_minus_identity(&theta).as_slice()], &d);
                 finite([Motion::displacement_of_point(&d, &u).as_slice()], &d);
                 let rotation = Rotation::cayley(&theta);
-                finite([rotation.matrix().as_slice(), rotation.inverse_cayley().as_slice()], &d);
+                finite([rotation.matrix().as_slice()], &d);
             }
         }
     }

@@ -22,8 +22,6 @@ fn half_turns_have_a_definite_logarithm() {
         assert_eq!(theta, minus_zero.logarithm());
         assert!((theta.norm() - PI).abs() < 1e-15);
         assert!(theta.iter().find(|&&component| component != 0.0).unwrap() > &0.0);
-        assert!(zero.inverse_cayley().iter().all(|component| component.is_finite()));
-        assert!(distance(Rotation::cayley(&zero.inverse_cayley()), zero) < 4e-16);
     }
 }
 
@@ -114,7 +112,6 @@ proptest! {
         let half = skew(&r) * 0.5;
         let residual = (Matrix3::identity() - half) * rotation.matrix() - (Matrix3::identity() + half);
         prop_assert!(residual.amax() < 4e-15 * (1.0 + r.norm()));
-        prop_assert!((rotation.inverse_cayley() - r).norm() <= 4e-16 * r.norm() * (1.0 + r.norm()));
         // Axial part of the rotation: r / (1 + r·r/4).
         prop_assert!((axial(&rotation.matrix()) * (1.0 + 0.25 * r.norm_squared()) - r).norm() < 4e-15 * r.norm() * (1.0 + r.norm_squared()));
     }
