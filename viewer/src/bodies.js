@@ -46,6 +46,13 @@ const surface = ({ points, triangles }) => {
   return geometry;
 };
 
+/** Triangles of every colour of a surface, those in the colour of their part first. */
+const byColour = ({ points, triangles, colours = [] }) => {
+  const own = new Set(colours.flatMap(({ first, count }) => Array.from({ length: count }, (_, k) => first + k)));
+  const painted = colours.map(({ first, count, shade }) => ({ points, triangles: triangles.slice(first, first + count), shade }));
+  return [{ points, triangles: triangles.filter((_, k) => !own.has(k)) }, ...painted].filter((each) => each.triangles.length > 0);
+};
+
 /** Something that moves with a node. */
 export class Carried {
   constructor(node, kinematics) {
@@ -65,13 +72,13 @@ export class BodyMesh extends Carried {
     super(body.node, kinematics);
     this.name = body.name;
     this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.6, metalness: 0.05 });
+    /** Materials of colours that the model names. */
+    this.painted = [];
     if (body.surface) {
-      const solid = new THREE.Mesh(surface(body.surface), this.material);
-      this.group.add(solid);
-      solid.geometry.computeBoundingBox();
+      for (const each of byColour(body.surface)) this.group.add(new THREE.Mesh(surface(each), this.materialOf(each)));
       const { center } = body.shape;
       // Points of attachment beyond the surface hang on arms.
-      const within = solid.geometry.boundingBox.clone().expandByScalar(0.02 * size);
+      const within = new THREE.Box3().setFromPoints(body.surface.points.map((point) => new THREE.Vector3(...point))).expandByScalar(0.02 * size);
       for (const at of anchors) {
         if (!within.containsPoint(new THREE.Vector3(...at))) this.group.add(rod(center, at, 0.0055 * size, this.material));
       }
@@ -103,12 +110,22 @@ export class BodyMesh extends Carried {
     this.group.traverse((child) => (child.userData.part = body.name));
   }
 
+  /** The material of triangles: of a colour of their own, or that of the part. */
+  materialOf({ shade }) {
+    if (!shade) return this.material;
+    const material = this.material.clone();
+    material.color.setRGB(...shade.map((part) => part / 255), THREE.SRGBColorSpace);
+    this.painted.push(material);
+    return material;
+  }
+
   paint(colourAt, own) {
     // Without light, so that colours are those of the legend.
     this.plain ??= new THREE.MeshBasicMaterial();
-    const wanted = colourAt ? this.plain : this.material;
     this.group.traverse((child) => {
-      if (child.material === this.plain || child.material === this.material) child.material = wanted;
+      const isOwn = child.material === this.material || this.painted?.includes(child.material);
+      if (isOwn && colourAt) [child.lit, child.material] = [child.material, this.plain];
+      else if (child.material === this.plain && !colourAt) child.material = child.lit;
     });
     if (!colourAt) return void this.material.color.set(own);
     const colour = [0, 0, 0];

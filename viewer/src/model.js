@@ -197,7 +197,7 @@ export class ModelView {
     if (!known?.object) return;
     known.isHidden = isHidden;
     known.object.visible = !isHidden;
-    const materials = new Set([known.drawn.plain, known.drawn.material]);
+    const materials = new Set([known.drawn.plain, known.drawn.material, ...(known.drawn.painted ?? [])]);
     known.object.traverse((child) => child.isMesh && !this.outline?.has(child) && materials.add(child.material));
     for (const material of materials) {
       if (!material) continue;
@@ -421,6 +421,7 @@ export class ModelView {
     for (const drawn of this.moving) {
       drawn.material?.dispose();
       drawn.plain?.dispose();
+      drawn.painted?.forEach((material) => material.dispose());
       drawn.outlined?.dispose();
     }
     this.outline?.dispose();

@@ -33,6 +33,26 @@ export const shapes = ({ folder, view, open }) => {
       }
       assert.deepEqual(complaints(), []);
     },
+    "shapes have their colours, except while a field is shown": async (browser) => {
+      const solid = `shape = [{ box = [1, 1, 1], colour = "#d1495b" }, { sphere = 0.2, position = [0, 0, 1] }, { sphere = 0.1, position = [0, 1, 0], colour = "#2e86ab" }]`;
+      const text = `lissom = 1\n[bodies.box]\nmass = 1\ninertia = { box = [1, 1, 1] }\nvelocity = [1, 0, 0]\n${solid}\n${run(0.1)}`;
+      const { page, complaints } = await shown(browser, "painted", text);
+      const drawn = (field) =>
+        page.evaluate((field) => {
+          lissom.colourBy(field);
+          const { drawn } = lissom.model.parts.get("box");
+          return drawn.group.children.filter((child) => child.isMesh).map(({ material, geometry }) => [`#${material.color.getHexString()}`, geometry.attributes.position.count / 3]);
+        }, field);
+      const own = await drawn("part");
+      assert.equal(own.length, 3);
+      assert.deepEqual(own.slice(1).map(([colour]) => colour), ["#d1495b", "#2e86ab"]);
+      assert.equal(own[1][1], 12, "triangles of the box");
+      const fields = await page.locator("#colour option").evaluateAll((all) => all.map((each) => each.value));
+      const speed = await drawn(fields.find((field) => field.includes("speed") || field.includes("velocity")));
+      assert.equal(new Set(speed.map(([colour]) => colour)).size, 1, JSON.stringify([fields, speed]));
+      assert.deepEqual(await drawn("part"), own);
+      assert.deepEqual(complaints(), []);
+    },
     "symbols scale with the model, and the ground follows it": async (browser) => {
       const { page, complaints } = await shown(browser, "car", car());
       const { size, extent, apart, cells } = await page.evaluate(() => {

@@ -3,7 +3,7 @@
 use std::fs;
 
 use lissom::core::motion::Vector3;
-use lissom::pictures::geometry::{Geometry, Role, poses_at};
+use lissom::pictures::geometry::{Colour, Geometry, Role, poses_at};
 use lissom::pictures::picture::{Paint, Projection, RecordedForces, View, painted};
 use lissom::{Record, ResultFolder};
 
@@ -52,6 +52,38 @@ fn point_masses_are_drawn_by_the_shapes_that_the_model_gives() {
     assert_eq!(extent("shape = { box = [0.2, 0.4, 0.6] }"), [0.1, 0.2, 0.3]);
     let [x, y, z] = extent("");
     assert!(x > 0.0 && x == y && y == z, "a ball");
+}
+
+#[test]
+fn shapes_are_drawn_in_their_colours() {
+    let folder = Folder::new("snapshot-colours");
+    let text = "lissom = 1\n[ground]\nshape = { kind = \"plane\" }\n[bodies.cart]\nmass = 1\ninertia = { box = [1, 1, 1] }\n\
+                shape = [{ box = [0.2, 0.4, 0.6], colour = \"#D1495b\" }, { box = [3, 0.1, 0.1] }, \
+                { sphere = 0.1, position = [0, 0, 1], colour = \"#00ff07\" }]\n\
+                [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
+    fs::write(folder.path().join("cart.toml"), text).unwrap();
+    let run = lissom(&["run", "cart.toml", "-q"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let run = ResultFolder::recorded(&folder.path().join("out/cart")).unwrap();
+    let geometry = Geometry::new(&run.scene, &run.motion, true);
+    let drawn = |colour: Colour| {
+        let mut pieces = geometry.pieces.iter().filter(|piece| piece.colour == colour);
+        let (piece, other) = (pieces.next().expect("a piece of this colour"), pieces.next());
+        assert_eq!(other, None);
+        let high = piece.mesh.points.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, at| high.sup(at));
+        (piece.name.as_str(), [0, 1, 2].map(|k| (1e4 * high[k]).round() / 1e4))
+    };
+    assert_eq!(drawn(Colour::Own([0xd1, 0x49, 0x5b])), ("cart", [0.1, 0.2, 0.3]));
+    assert_eq!(drawn(Colour::Part(0)), ("cart", [1.5, 0.05, 0.05]));
+    assert_eq!(drawn(Colour::Own([0, 0xff, 7])).1[2], 1.1);
+    assert_eq!(drawn(Colour::Ground).0, "ground");
+    let faces: usize = geometry.pieces.iter().map(|piece| piece.mesh.faces.len()).sum();
+    let surfaces = run.scene.bodies[0].surface.iter().chain(&run.scene.point_masses[0].surface);
+    assert_eq!(
+        faces,
+        surfaces.map(|surface| surface.triangles.len()).sum::<usize>(),
+        "each face is drawn once"
+    );
 }
 
 #[test]

@@ -5,29 +5,17 @@ use std::sync::Arc;
 use lissom_contact::forms::{Form, PlacedSolid, Solid, Triangles};
 use lissom_contact::geometry::curves::Spline;
 use lissom_contact::geometry::surfaces::{HeightField, Mesh, Outline, Polygon};
+use lissom_drawing::Shade;
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use crate::files::library::joined;
 use crate::format::keys::{Key, Shape};
+use crate::format::solid_kinds::SOLID_KINDS;
 use crate::reading::reader::Reader;
 use crate::surface::Surface;
 use crate::text::report::Problem;
 use crate::text::{Node, Value};
 
-/// Kinds of solids with their dimensions.
-const KINDS: [(&str, &[&str]); 11] = [
-    ("box", &["sides"]),
-    ("cylinder", &["radius", "length", "axis"]),
-    ("tube", &["radius", "inner_radius", "length", "axis"]),
-    ("sphere", &["radius"]),
-    ("capsule", &["radius", "length", "axis"]),
-    ("ellipsoid", &["semi_axes"]),
-    ("plane", &["normal"]),
-    ("outline", &["points", "smooth", "length", "axis"]),
-    ("hull", &["points"]),
-    ("height_field", &["heights", "extent"]),
-    ("mesh", &["file", "scale"]),
-];
 /// Dimensions that may be omitted.
 const OPTIONAL: [&str; 4] = ["axis", "normal", "smooth", "scale"];
 /// Most corners of a hull: with each of them it may touch a plane.
@@ -69,7 +57,7 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
                 let touches = own.flag("touches")?.value;
                 positioned.push(own.has("position"));
                 let (drawn, solid) = drawn((&own, entry), &what, center)?;
-                surface.append(&drawn);
+                surface.append(&drawn.painted(colour(&own)?));
                 solids.extend(touches.then_some(solid));
             }
             if *center != Vector3::zeros() && positioned.contains(&true) && positioned.contains(&false) {
@@ -89,6 +77,31 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
             context.fail(node.span, message, "remove one of them")
         }
     }
+}
+
+/// The colour of a solid, none for that of its part.
+#[expect(clippy::option_option, reason = "a mistake, or no colour")]
+fn colour(own: &Reader<'_, '_>) -> Option<Option<Shade>> {
+    let Some(node) = own.node("colour") else { return Some(None) };
+    let digits = own
+        .text("colour")?
+        .value
+        .strip_prefix('#')
+        .filter(|digits| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
+    if own.text("kind").is_some_and(|kind| kind.value == "plane") {
+        let message = format!("{}: a plane is drawn in the colour of the ground", own.what);
+        return own.context.fail(node.span, message, "remove `colour`");
+    }
+    if let Some(Ok(number)) = digits.map(|digits| u32::from_str_radix(digits, 16)) {
+        let [_, red, green, blue] = number.to_be_bytes();
+        return Some(Some([red, green, blue]));
+    }
+    let message = format!("{} is no colour", own.words("colour"));
+    own.context.fail(
+        node.span,
+        message,
+        "write red, green and blue as six hexadecimal digits, such as \"#d1495b\"",
+    )
 }
 
 /// The surface of a file that `key` names; none where no files are looked for.
@@ -269,10 +282,12 @@ fn kind(own: &Reader<'_, '_>, node: &Node, what: &str) -> Option<&'static str> {
     let named = own.choice("kind").map(|kind| kind.value);
     let (kind, dimensions) = match short.first() {
         Some(short) => (*short, &["axis"][..]),
-        None => *KINDS.iter().find(|(kind, _)| Some(*kind) == named)?,
+        None => {
+            SOLID_KINDS.iter().find(|kind| Some(kind.word) == named).map(|kind| (kind.word, kind.keys))?
+        }
     };
     let has_no_axis = matches!(kind, "box" | "sphere");
-    let all = KINDS.iter().flat_map(|(_, dimensions)| *dimensions);
+    let all = SOLID_KINDS.iter().flat_map(|kind| kind.keys);
     let misses = |key: &&&str| !dimensions.contains(key) || (**key == "axis" && has_no_axis);
     if let Some(strange) = all.filter(misses).find(|key| own.has(key)) {
         return context.fail(node.span, format!("a {kind} has no `{strange}`"), "remove it");

@@ -97,9 +97,13 @@ impl Shape {
                 "length",
                 Self::Positive,
                 "m",
-                "of a cylinder or tube; of a capsule between the centres of its ends",
+                "of a cylinder or tube, and of an outline as it is drawn; of a capsule between the centres of its ends",
             ),
-            unitless("axis", Self::BodyDirection, "of a cylinder, tube or capsule, body axes; default z"),
+            unitless(
+                "axis",
+                Self::BodyDirection,
+                "of a cylinder, tube, capsule or outline, body axes; default z",
+            ),
             optional("semi_axes", Self::Vector, "m", "of an ellipsoid, along the body axes"),
             optional("box", Self::Vector, "m", "sides along the body axes, instead of `kind` and dimensions"),
             optional("cylinder", Self::Pair, "m", "[radius, length], instead of `kind` and dimensions"),
@@ -122,7 +126,7 @@ impl Shape {
                 "points",
                 Self::NumberRows,
                 "m",
-                "of an outline [x, y], the corners of a prism along z in their order, or of a hull [x, y, z], its corners",
+                "of an outline [x, y], the corners of a prism along its axis in their order, or of a hull [x, y, z], its corners",
             ),
             unitless(
                 "smooth",
@@ -151,6 +155,7 @@ impl Shape {
                 "of its centre or of the origin of a mesh, from the body's reference point, body axes; default: a solid is at the centre of mass, a mesh at the reference point",
             ),
             optional("rotation", Self::Vector, "rad", "rotation vector, body axes"),
+            unitless("colour", Self::Text, "in which it is drawn, such as \"#d1495b\"; default: that of the part"),
         ]);
         keys
     }

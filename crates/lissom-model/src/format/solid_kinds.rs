@@ -9,11 +9,11 @@ pub(crate) struct SolidKind {
     /// One sentence.
     pub(crate) summary: &'static str,
     /// Keys that only some solids have.
-    keys: &'static [&'static str],
+    pub(crate) keys: &'static [&'static str],
 }
 
 /// Keys of every solid.
-const COMMON: [&str; 3] = ["position", "rotation", "touches"];
+const COMMON: [&str; 4] = ["position", "rotation", "touches", "colour"];
 
 const fn solid(word: &'static str, keys: &'static [&'static str], summary: &'static str) -> SolidKind {
     SolidKind { word, summary, keys }
@@ -30,8 +30,8 @@ pub(crate) const SOLID_KINDS: [SolidKind; 11] = [
     solid("plane", &["normal"], "A solid half-space; its position is a point of the plane."),
     solid(
         "outline",
-        &["points", "smooth"],
-        "A prism along z with corners [x, y], or with a smooth curve through them: cams, slots, gears.",
+        &["points", "smooth", "length", "axis"],
+        "A prism along its axis with corners [x, y], or with a smooth curve through them: cams, slots, gears.",
     ),
     solid("hull", &["points"], "The convex hull of at most 200 points [x, y, z]."),
     solid(

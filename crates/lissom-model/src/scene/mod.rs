@@ -39,7 +39,7 @@ pub use shells::Shell;
 pub use solids::{Form, Solid, Tone};
 pub use symbols::{Rod, Symbol};
 
-pub use crate::surface::{Surface, SurfaceError};
+pub use crate::surface::{Painted, Surface, SurfaceError};
 
 /// Version of the format.
 const VERSION: usize = 3;

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 
 use lissom_contact::forms::{Form, Solid};
 use lissom_contact::geometry::curves::Curve;
+use lissom_drawing::Shade;
 use lissom_motion::{Motion, Vector3};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -26,6 +27,20 @@ pub struct Surface {
     pub points: Vec<[f32; 3]>,
     /// Points of each triangle.
     pub triangles: Vec<[u32; 3]>,
+    /// Triangles with colours of their own, in ascending order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub colours: Vec<Painted>,
+}
+
+/// Consecutive triangles of one colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Painted {
+    /// Index of the first triangle.
+    pub first: u32,
+    /// Number of triangles.
+    pub count: u32,
+    /// Red, green and blue.
+    pub shade: Shade,
 }
 
 /// A file that is no surface.
@@ -110,6 +125,7 @@ impl Surface {
             Form::Hull(mesh) => Self {
                 points: mesh.corners().map(|corner| corner.cast::<f32>().into()).collect(),
                 triangles: mesh.triangles().to_vec(),
+                colours: Vec::new(),
             },
             Form::HeightField(field) => {
                 let columns = field.columns() as u32;
@@ -118,11 +134,12 @@ impl Surface {
                 let cells =
                     (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| row * columns + column));
                 let of = |a: u32| [[a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]];
-                Self { points, triangles: cells.flat_map(of).collect() }
+                Self { points, triangles: cells.flat_map(of).collect(), colours: Vec::new() }
             }
             Form::Mesh(own) => Self {
                 points: own.points.iter().map(|point| point.cast::<f32>().into()).collect(),
                 triangles: own.triangles.clone(),
+                colours: Vec::new(),
             },
         }
     }
@@ -169,11 +186,21 @@ impl Surface {
         Self {
             points: self.points.iter().map(place).collect(),
             triangles: self.triangles.iter().map(corners).collect(),
+            colours: self.colours.clone(),
         }
+    }
+
+    /// This surface in one colour, or in that of its part.
+    pub(crate) fn painted(mut self, shade: Option<Shade>) -> Self {
+        let count = self.triangles.len() as u32;
+        self.colours = shade.map(|shade| Painted { first: 0, count, shade }).into_iter().collect();
+        self
     }
 
     /// Adds another surface.
     pub(crate) fn append(&mut self, other: &Self) {
+        let first = self.triangles.len() as u32;
+        self.colours.extend(other.colours.iter().map(|own| Painted { first: first + own.first, ..*own }));
         let first = self.points.len() as u32;
         self.points.extend(&other.points);
         self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
@@ -199,7 +226,7 @@ impl Surface {
                 triangles.push([last, last + side, last + side + 1]);
             }
         }
-        Self { points, triangles }
+        Self { points, triangles, colours: Vec::new() }
     }
 
     /// Reads an STL or a glTF file, which its first bytes decide; `beside` reads the buffers that a glTF file names. Corners

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use lissom::exchange::import::{Motors, Options, Pose, Root, Unsupported, from_urdf, model_text};
+use lissom::exchange::import::{Motors, Options, Pose, Root, Unsupported, from_mjcf, from_urdf, model_text};
 use lissom_motion::Vector6;
 use serde_json::Value;
 
@@ -254,11 +254,13 @@ fn shapes_and_meshes_of_links_are_drawn() {
     folder.write("robots/arm_description/meshes/plate.stl", &format!("solid plate\n{facet}\nendsolid"));
     let text = "<robot name='arm'><link name='base'><visual><geometry><sphere radius='1'/></geometry></visual></link>\
          <link name='upper'><inertial><origin xyz='9 9 9'/><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
-         <visual><origin xyz='0.5 0 0' rpy='0 0 1.5707963267948966'/><geometry><box size='0.2 1 0.4'/></geometry></visual>\
+         <visual><origin xyz='0.5 0 0' rpy='0 0 1.5707963267948966'/><geometry><box size='0.2 1 0.4'/></geometry>\
+         <material name='red'/></visual>\
          </link>\
          <link name='hand'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
          <visual><geometry><mesh filename='hand.dae'/></geometry></visual>\
          <collision><geometry><box size='0.2 0.4 0.6'/></geometry></collision></link>\
+         <material name='red'><color rgba='1 0.5 0 1'/></material>\
          <link name='bolt'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
          <visual><geometry><mesh filename='bolt.dae'/></geometry></visual></link>\
          <joint name='c' type='continuous'><parent link='base'/><child link='hand'/></joint>\
@@ -299,6 +301,31 @@ fn shapes_and_meshes_of_links_are_drawn() {
     );
     assert!(text.contains("[ground]\nshape = [\n    { kind = \"sphere\""), "the root is drawn: {text}");
     is_near(extent(body("plate")), [[0.0, -0.5, 0.0], [1.0, 0.0, 0.0]]);
+    let painted = &body("upper").surface.as_ref().expect("drawn").colours;
+    let box_alone = lissom_model::scene::Painted { first: 0, count: 12, shade: [255, 128, 0] };
+    assert_eq!(painted[..], [box_alone], "a material that is described elsewhere");
+}
+
+/// Colours of MJCF: of the geom, before that of its material, and of its class; clear shapes that touch nothing are not drawn.
+#[test]
+fn geoms_have_colours() {
+    let text = "<mujoco><default><geom rgba='0 0 1 1'/><default class='red'><geom rgba='1 0 0 1'/></default></default>\
+         <asset><material name='green' rgba='0 0.2 0 1'/></asset><worldbody><body><freejoint/>\
+         <geom type='box' size='1 1 1' rgba='1 1 0 0.5' material='green'/><geom size='2' class='red'/><geom size='3'/>\
+         <geom size='4' rgba='1 0 1 0' contype='0' conaffinity='0'/></body></worldbody></mujoco>";
+    let text = model_text(&from_mjcf(text).expect("a robot"), &Pose::default(), Options::default())
+        .expect("a model");
+    let colour_of =
+        |words: &str| text.lines().find(|line| line.contains(words)).and_then(|line| line.split('#').nth(1));
+    for (words, colour) in [("box", "ffff00"), ("radius = 2.0", "ff0000"), ("radius = 3.0", "0000ff")] {
+        assert!(colour_of(words).is_some_and(|own| own.starts_with(colour)), "{words}: {text}");
+    }
+    assert!(!text.contains("radius = 4.0"), "{text}");
+    let of_material = "<mujoco><asset><material name='green' rgba='0 0.2 0 1'/></asset><worldbody><body><freejoint/>\
+         <geom size='1' material='green'/></body></worldbody></mujoco>";
+    let robot = from_mjcf(of_material).expect("a robot");
+    let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+    assert!(text.contains("colour = \"#003300\""), "{text}");
 }
 
 #[test]

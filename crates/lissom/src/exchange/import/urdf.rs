@@ -3,9 +3,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use lissom_model::output::Shade;
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use roxmltree::Node;
 
+use super::visuals::shade;
 use super::xml::{self, children, location};
 use super::{
     Freedom, ImportError, Link, LinkInertia, MotorRating, Robot, RobotJoint, Visual, VisualShape, from_z,
@@ -337,7 +339,20 @@ fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError>
             "link `{link}`: the shape of its <visual> has a length that is not positive"
         )));
     }
-    Ok(Some(Visual { shape, origin: origin(node)?, touch: None, name: None }))
+    Ok(Some(Visual { shape, origin: origin(node)?, touch: None, name: None, colour: colour(node)? }))
+}
+
+/// The colour of a shape: that of its material, which may be another element's of the same name.
+fn colour(node: Node<'_, '_>) -> Result<Option<Shade>, ImportError> {
+    let Some(material) = child(node, "material") else { return Ok(None) };
+    let is_same = |own: &Node<'_, '_>| {
+        own.has_tag_name("material")
+            && own.attribute("name") == material.attribute("name")
+            && child(*own, "color").is_some()
+    };
+    let own = child(material, "color");
+    let own = own.or_else(|| child(node.document().descendants().find(is_same)?, "color"));
+    Ok(own.map_or(Ok(None), |own| numbers::<4>(own, "rgba"))?.map(shade))
 }
 
 /// A joint; what is wrong with it, except its links, becomes an obstacle.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use lissom_model::output::Shade;
 use lissom_model::toml_text::quoted;
 use lissom_motion::{Motion, Vector3};
 
@@ -22,6 +23,8 @@ pub struct Visual {
     pub touch: Option<Touch>,
     /// Name of the shape, if the description has names.
     pub name: Option<String>,
+    /// Colour of the shape, if the description has one.
+    pub colour: Option<Shade>,
 }
 
 /// The shape of a visual.
@@ -103,6 +106,9 @@ impl Visual {
         if !touches {
             text.push_str(", touches = false");
         }
+        if let Some([red, green, blue]) = self.colour.filter(|_| self.shape != VisualShape::Plane) {
+            let _ = write!(text, ", colour = \"#{red:02x}{green:02x}{blue:02x}\"");
+        }
         Some(format!("{{ {text} }}"))
     }
 }
@@ -153,6 +159,11 @@ impl Robot {
              instead, or nothing"
         ))
     }
+}
+
+/// A colour from red, green, blue and opacity between 0 and 1.
+pub(super) fn shade([red, green, blue, _]: [f64; 4]) -> Shade {
+    [red, green, blue].map(|part| (255.0 * part.clamp(0.0, 1.0)).round() as u8)
 }
 
 /// The file of a mesh.

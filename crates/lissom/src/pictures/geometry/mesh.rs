@@ -211,6 +211,20 @@ impl Mesh {
         self.faces.extend(other.faces.into_iter().map(|face| face.into_iter().map(|k| k + first).collect()));
     }
 
+    /// A closed mesh of faces between points of this one, without the other points.
+    pub(super) fn with_faces(&self, mut faces: Vec<Vec<u32>>) -> Self {
+        let mut points = Vec::new();
+        let mut known: Vec<Option<u32>> = vec![None; self.points.len()];
+        for corner in faces.iter_mut().flatten() {
+            let old = *corner as usize;
+            *corner = *known[old].get_or_insert_with(|| {
+                points.push(self.points[old]);
+                points.len() as u32 - 1
+            });
+        }
+        Self { points, faces, is_open: false }
+    }
+
     /// Triangles of the mesh: faces are divided from their first points.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let fan = |face: &Vec<u32>| {

@@ -1,6 +1,7 @@
 //! Geometry of a whole model: its parts, symbols and loads as pieces fixed to nodes.
 
-use lissom_model::scene::{Anchor, Body, Load, Scene, Symbol, Table, Tone};
+use lissom_model::output::Shade;
+use lissom_model::scene::{Anchor, Body, Load, Scene, Surface, Symbol, Table, Tone};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
 
 use super::mesh::{Mesh, turn_to};
@@ -51,6 +52,8 @@ pub enum Colour {
     Tone(Tone),
     /// The ground.
     Ground,
+    /// A colour of its own: red, green and blue.
+    Own(Shade),
 }
 
 /// Motion of a piece.
@@ -196,6 +199,27 @@ impl Geometry {
         self.pieces.push(Piece { name: name.to_owned(), role, colour, mesh, carrier });
     }
 
+    /// Adds a part, divided by the colours of its surface; the mesh begins with the triangles of the surface.
+    fn add_painted(
+        &mut self,
+        name: &str,
+        (role, colour): (Role, Colour),
+        (mut mesh, surface): (Mesh, Option<&Surface>),
+        node: NodeId,
+    ) {
+        // The last first: indices of the others stay as they are.
+        for own in surface.iter().flat_map(|surface| surface.colours.iter().rev()) {
+            let end = (own.first as usize + own.count as usize).min(mesh.faces.len());
+            let faces: Vec<Vec<u32>> = mesh.faces.drain((own.first as usize).min(end)..end).collect();
+            let painted = mesh.with_faces(faces);
+            self.add(name, (role, Colour::Own(own.shade)), painted, Carrier::Node(node));
+        }
+        let rest = std::mem::take(&mut mesh.faces);
+        if !rest.is_empty() {
+            self.add(name, (role, colour), mesh.with_faces(rest), Carrier::Node(node));
+        }
+    }
+
     fn parts(&mut self, scene: &Scene, motion: &Motion, least: f64) {
         let mut number = 0;
         let mut next = || {
@@ -219,13 +243,14 @@ impl Geometry {
         }
         for body in &scene.bodies {
             let mesh = self.body(body, &attached(scene, body.node));
-            self.add(&body.name, (Role::Body, next()), mesh, Carrier::Node(body.node));
+            self.add_painted(&body.name, (Role::Body, next()), (mesh, body.surface.as_ref()), body.node);
         }
         let heaviest = scene.point_masses.iter().map(|mass| mass.mass).fold(0.0, f64::max);
         for mass in &scene.point_masses {
             let ball = || Mesh::ball(self.size * (0.012 + 0.016 * (mass.mass / heaviest).cbrt()));
             let mesh = mass.surface.as_ref().map_or_else(ball, Mesh::of_surface);
-            self.add(&mass.name, (Role::PointMass, next()), mesh, Carrier::Node(mass.node));
+            let colour = if mass.node == GROUND { Colour::Ground } else { next() };
+            self.add_painted(&mass.name, (Role::PointMass, colour), (mesh, mass.surface.as_ref()), mass.node);
         }
     }
 

@@ -29,6 +29,7 @@ const PARTS: [Shade; 8] = [
 pub fn shade_of(colour: Colour) -> Shade {
     match colour {
         Colour::Part(number) => PARTS[number % PARTS.len()],
+        Colour::Own(shade) => shade,
         Colour::Ground => [0xa9, 0xb2, 0xbe],
         Colour::Tone(Tone::Light) => [0xf1, 0xb4, 0x34],
         Colour::Tone(Tone::Dark) => [0x4d, 0x56, 0x63],

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use lissom_motion::{Matrix3, Motion, Vector3};
 
 use super::super::model_text::carried;
+use super::super::visuals::shade;
 use super::super::{ImportError, LinkInertia, Visual, VisualShape, from_z};
 use super::element::Element;
 use super::frame;
@@ -120,11 +121,14 @@ impl Geom {
     pub(super) fn visual(&self, meshes: &mut Meshes) -> Result<Option<Visual>, ImportError> {
         let element = &self.element;
         let touch = touching::of_geom(element)?;
-        if touch.is_none() && self.group > LAST_DRAWN_GROUP {
+        let name = element.text("name").map(str::to_owned);
+        let colour = meshes.rgba(element)?;
+        let is_clear = colour.is_some_and(|[.., opacity]| opacity == 0.0);
+        if touch.is_none() && (is_clear || self.group > LAST_DRAWN_GROUP) {
             return Ok(None);
         }
-        let name = element.text("name").map(str::to_owned);
-        let framed = |shape, origin| Ok(Some(Visual { shape, origin, touch, name: name.clone() }));
+        let colour = colour.map(shade);
+        let framed = |shape, origin| Ok(Some(Visual { shape, origin, touch, name: name.clone(), colour }));
         match self.kind.as_str() {
             "plane" => {
                 return framed(VisualShape::Plane, frame::frame(element, &self.settings.angles)?);

@@ -53,6 +53,7 @@ pub(super) struct Mesh {
 #[derive(Default)]
 pub(super) struct Meshes {
     assets: BTreeMap<String, Node>,
+    materials: BTreeMap<String, Node>,
     known: BTreeMap<String, Result<Rc<Mesh>, ImportError>>,
     /// What is omitted of meshes, one sentence each.
     pub(super) notes: Vec<String>,
@@ -60,8 +61,18 @@ pub(super) struct Meshes {
 
 impl Meshes {
     pub(super) fn of(root: &Node) -> Self {
-        let assets = root.within("asset").filter(|own| own.has_tag("mesh"));
-        Self { assets: assets.map(|own| (asset_name(own), own.clone())).collect(), ..Self::default() }
+        let named = |tag: &str| {
+            let assets = root.within("asset").filter(|own| own.has_tag(tag));
+            assets.map(|own| (asset_name(own), own.clone())).collect()
+        };
+        Self { assets: named("mesh"), materials: named("material"), ..Self::default() }
+    }
+
+    /// Red, green, blue and opacity of a geom, or of its material.
+    pub(super) fn rgba(&self, geom: &Element) -> Result<Option<[f64; 4]>, ImportError> {
+        let own = geom.numbers::<4>("rgba")?;
+        let material = geom.text("material").and_then(|name| self.materials.get(name));
+        own.map_or_else(|| material.map_or(Ok(None), |own| own.element.numbers("rgba")), |own| Ok(Some(own)))
     }
 
     /// The mesh of a geom.
