@@ -4,13 +4,14 @@
 //! satisfied with constant body twists. Newton's method with the linear model about the state, in increments relative to extrapolation:
 //!
 //! ```text
-//! (s² M + s D + K) δ + Bᵀ δμ = -r(V̇ = 0),    B δ = -c,    δV = ad_V δ
+//! (s² M + s D + K) δ + Bᵀ δμ = -r(V̇ = 0),    B δ = -c,    δV = ad_V (δ - δ of the carrier in the axes of the node)
 //! ```
 //!
 //! with a small s, so that free rotations do not contribute to the corrections.
 
 use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
 use lissom_solver::SolverKind;
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::carried_fields::CarriedFields;
@@ -140,6 +141,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
             *value = Complex64::from(-residual);
         }
         shifted.solve(&mut right);
+        follow_supports(&mut shifted, fields.columns(system, &state.kinematics, &parts), &mut right);
         let size = size_of(system, &right, representative.length);
         let part = (MAX_CORRECTION / size).min(1.0);
         correct(system, &mut state, (part, &right), &fields);
@@ -158,6 +160,29 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         Ok(state)
     } else {
         Err(SteadyError::NotConverged { correction: last })
+    }
+}
+
+/// Adds `columns`, each with the row of its factor, to the factored matrix, of which `solution` is a solution (Sherman, Morrison and Woodbury).
+fn follow_supports(
+    shifted: &mut ComplexShift<'_>,
+    mut columns: Vec<(usize, Vec<Complex64>)>,
+    solution: &mut [Complex64],
+) {
+    if columns.is_empty() {
+        return;
+    }
+    for (_, column) in &mut columns {
+        shifted.solve(column);
+    }
+    let entry = |i: usize, j: usize| columns[j].1[columns[i].0] + f64::from(u8::from(i == j));
+    let matrix = DMatrix::from_fn(columns.len(), columns.len(), entry);
+    let factors = DVector::from_iterator(columns.len(), columns.iter().map(|(row, _)| solution[*row]));
+    let Some(factors) = matrix.lu().solve(&factors) else { return };
+    for ((_, column), factor) in columns.iter().zip(&factors) {
+        for (value, entry) in solution.iter_mut().zip(column) {
+            *value -= factor * entry;
+        }
     }
 }
 
