@@ -84,6 +84,11 @@ pub enum AnalysisWarning {
         /// The correlation of the shapes.
         correlation: f64,
     },
+    /// The number that is varied turns nothing.
+    NothingRotates {
+        /// The varied number.
+        path: String,
+    },
     /// Nodes rotate far under the loads of a buckling analysis.
     LargeRotation {
         /// The largest rotation [rad].
@@ -227,6 +232,12 @@ catalogued! {
             cause: "line {line} is continued to `{path}` = {value} between shapes with a correlation of only {correlation:.2}",
             remedy: "use more values",
             meaning: "A line of a Campbell diagram may pass to another mode, because shapes change much between two values.",
+        }
+        NothingRotates { path => path } => "campbell-nothing-rotates" {
+            cause: "nothing rotates at any value of `{path}`: the lines are those of the static equilibrium",
+            remedy: "let the angular velocity of the rotor at the start depend on the number, such as \
+                     `angular_velocity = [\"speed\", 0, 0]` of `[initial.rotor]`",
+            meaning: "A Campbell diagram was asked for over a number that is no speed of rotation: a drive that accelerates from rest sets none at the start.",
         }
         LargeRotation { angle => angle } => "buckling-rotation" {
             cause: "nodes rotate by up to {angle:.2} rad under the loads: load factors far from 1 are extrapolated although the \

@@ -84,5 +84,5 @@ pub(super) fn report<A: Analysis>(
             found.ending(path)
         ));
     }
-    Ok(Exit::Done)
+    found.missing().map_or(Ok(Exit::Done), |missing| Err(Failure::new(Exit::Failed, &missing)))
 }

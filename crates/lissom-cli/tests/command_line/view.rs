@@ -354,6 +354,37 @@ fn folders_of_results_in_a_folder_are_named() {
     }
 }
 
+/// What has modes is written, and the command fails because of the rest.
+#[test]
+fn a_campbell_diagram_is_written_as_far_as_there_are_modes() {
+    let folder = Folder::new("campbell-partly");
+    // Blades on a support that yields one way have no constant coefficients as soon as they turn.
+    let text = "lissom = 1\n[parameters]\nspeed = 1.0\n[bodies.support]\nmass = 2\ninertia = [1, 1, 1]\n\
+                [joints.slide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"support\"\naxis = \"y\"\n\
+                [springs.support]\nkind = \"axial\"\njoint = \"slide\"\nstiffness = 1e5\n\
+                [bodies.hub]\nmass = 1\ninertia = [1, 1, 1]\ncenter_of_mass = [0, 0, 0]\n\
+                [joints.shaft]\nkind = \"revolute\"\nbase = \"support\"\ntip = \"hub\"\naxis = \"x\"\n\
+                [bodies.blade]\nmass = 1\ninertia = [0.1, 0.1, 0.1]\nposition = [0, 0, 1]\n\
+                [joints.flap]\nkind = \"revolute\"\nbase = \"hub\"\ntip = \"blade\"\naxis = \"y\"\nat = [0, 0, 0]\n\
+                [springs.flap]\nkind = \"torsional\"\njoint = \"flap\"\nstiffness = 1e3\n\
+                [initial.rotor]\nparts = [\"hub\", \"blade\"]\nangular_velocity = [\"speed\", 0, 0]\n\
+                [analysis]\nkind = \"dynamics\"\nend = 1\n";
+    fs::write(folder.path().join("rotor.toml"), text).unwrap();
+    let run = lissom(
+        &["campbell", "rotor.toml", "--vary", "parameters.speed=0:100:3", "--out", "rotor"],
+        folder.path(),
+    );
+    assert_eq!(run.code, 3, "{}", run.errors);
+    assert!(run.errors.contains("1 other value"), "{}", run.errors);
+    let table = fs::read_to_string(folder.path().join("rotor/campbell.csv")).unwrap();
+    assert!(
+        table.lines().count() > 1 && table.lines().skip(1).all(|line| line.starts_with("0.0,")),
+        "{table}"
+    );
+    let summary = fs::read_to_string(folder.path().join("rotor/summary.json")).unwrap();
+    assert!(summary.contains("\"stopped\": \"failed\"") && summary.contains("\"failure\""), "{summary}");
+}
+
 #[test]
 fn a_campbell_diagram_is_a_page_with_its_lines_and_crossings() {
     let folder = Folder::new("view-campbell");

@@ -57,6 +57,11 @@ pub trait AnalysisReport {
     /// Warnings of the analysis.
     fn warnings(&self) -> Vec<Diagnostic>;
 
+    /// The part of the request that has no result; the command then fails after it has written the others. Default: nothing is missing.
+    fn missing(&self) -> Option<Diagnostic> {
+        None
+    }
+
     /// Lines of the report on the terminal, after the title of the model; the first one ends with the duration of the analysis.
     fn text(&self, time: &str) -> String;
 
@@ -89,6 +94,12 @@ impl AnalysisError for CommandError {
     }
 }
 
+impl AnalysisError for Diagnostic {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Computation
+    }
+}
+
 impl AnalysisError for Report {
     fn origin(&self) -> Origin<'_> {
         Origin::Model(self)
@@ -117,6 +128,10 @@ pub fn summary<A: Analysis>(
     report.add_facts(&mut insert);
     insert("wall_seconds", json!(wall.as_secs_f64()));
     crate::results::summary::add_warnings(&mut summary, &report.warnings());
+    if let Some(missing) = report.missing() {
+        crate::results::summary::insert(&mut summary, "stopped", json!("failed"));
+        crate::results::summary::of_failure(&mut summary, &missing);
+    }
     summary
 }
 

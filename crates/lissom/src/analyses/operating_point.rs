@@ -10,7 +10,7 @@ use lissom_core::system::{State, System};
 use lissom_model::Document;
 use lissom_model::channels::Channel;
 use lissom_model::document::AnalysisKind;
-use lissom_motion::{rotation_part, translation_part};
+use lissom_motion::{Vector3, rotation_part, translation_part};
 use serde::Deserialize;
 
 use crate::analyses::modes::ModesError;
@@ -27,6 +27,8 @@ const TOLERANCE: f64 = 1e-12;
 const STEADY: f64 = 1e-6;
 /// A rotation with computed positions whose twists change by less is steady: light parts have more round-off.
 const STEADY_ROTATION: f64 = 1e-5;
+/// Number of loads that are named.
+const NAMED: usize = 3;
 
 /// The state about which a model is linearised.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -196,7 +198,20 @@ fn in_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
     // Loads fixed in space can be in balance at one azimuth, such as gravity perpendicular to the axis of a rotor.
     let later = model.turned()?.unsteadiness();
     if later.is_nan() || later > STEADY_ROTATION {
-        return Err(ModesError::SteadyHereAlone(later));
+        let gravity = (document.gravity != Vector3::zeros()).then(|| "gravity".to_owned());
+        let names = document
+            .loads
+            .iter()
+            .map(|load| &load.name)
+            .chain(document.local_loads.iter().map(|load| &load.name));
+        let mut loads: Vec<String> =
+            gravity.into_iter().chain(names.map(|name| format!("`{}`", name.value))).collect();
+        if loads.len() > NAMED {
+            let more = loads.len() - NAMED;
+            loads.truncate(NAMED);
+            loads.push(format!("{more} more"));
+        }
+        return Err(ModesError::SteadyHereAlone { change: later, loads: loads.join(", ") });
     }
     hand(LinearizationPoint { model: &model, channels: &channels, warnings: Vec::new() });
     Ok(())

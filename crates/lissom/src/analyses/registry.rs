@@ -75,6 +75,9 @@ fn compute<A: Analysis>(model: &Model, request: &str) -> Outcome {
     let request: A = interface::request(request).map_err(boxed)?;
     let began = Instant::now();
     let report = request.compute(model).map_err(boxed)?;
+    if let Some(missing) = report.missing() {
+        return Err(boxed(missing));
+    }
     let document = model.document().map_err(boxed)?;
     Ok(ResultFiles::of::<A>(&report, began.elapsed(), model, &document))
 }

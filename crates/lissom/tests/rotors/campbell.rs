@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use lissom::Model;
+use lissom::analyses::AnalysisReport;
 use lissom::analyses::campbell::{CampbellError, CampbellReport, CampbellRequest, Variation, campbell};
 use lissom::analyses::modes::{ModeRequest, ModesError, OperatingPoint, modes};
 
@@ -474,6 +475,16 @@ stiffness = 1e5
         }
         other => panic!("{other:?}"),
     }
+    // At rest it has modes: they are reported, and what is missing.
+    let found = campbell(&model, &request("parameters.speed", 0.0, 100.0, 3, 3, &[1]))
+        .expect("a part of the diagram");
+    assert_eq!(
+        (found.points.len(), found.failed.iter().map(|own| own.0).collect::<Vec<_>>()),
+        (1, vec![50.0, 100.0])
+    );
+    let missing = found.missing().expect("a reason");
+    assert!(missing.code == "periodic-coefficients" && missing.cause.contains("1 other"), "{missing}");
+    assert!(missing.cause.contains("`parameters.speed` = 50"), "{missing}");
     // Nothing turns.
     let ask = ModeRequest { count: Some(2), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     let still = OVERHUNG.replace("speed = 10.0", "speed = 0.0");
@@ -494,7 +505,7 @@ fn a_rotor_that_turns_freely_needs_no_gravity_across_its_axis() {
     // At some azimuths the weights of the blades are in balance: not even there is the rotation steady.
     let refused = campbell(&turbine, &of_speed).unwrap_err();
     let CampbellError::Modes { error, value: 0.1, .. } = &refused else { panic!("{refused}") };
-    assert!(matches!(**error, ModesError::SteadyHereAlone(_)), "{refused}");
+    assert!(matches!(**error, ModesError::SteadyHereAlone { .. }), "{refused}");
     let reported = refused.to_string();
     assert!(reported.contains("--unset gravity") && !reported.contains("  "), "{reported}");
 
@@ -514,6 +525,17 @@ fn a_rotor_that_turns_freely_needs_no_gravity_across_its_axis() {
         assert!((rise(point) - expected).abs() <= 1e-2 * rise(3), "{} for {expected}", rise(point));
     }
     assert!(lowest(3, 1) > lowest(0, 1));
+}
+
+/// Numbers that turn nothing are reported.
+#[test]
+fn a_diagram_over_a_number_that_turns_nothing_says_so() {
+    let still = OVERHUNG.replace("angular_velocity = [\"speed\", 0, 0]", "angular_velocity = [0, 0, 0]");
+    let found = find(&still, &request("parameters.speed", 0.0, 100.0, 2, 2, &[1]));
+    let warned = found.warnings().iter().any(|warning| warning.code == "campbell-nothing-rotates");
+    assert!(warned, "{:?}", found.warnings());
+    let turning = find(OVERHUNG, &request("parameters.speed", 0.0, 100.0, 2, 2, &[1]));
+    assert!(turning.warnings().iter().all(|warning| warning.code != "campbell-nothing-rotates"));
 }
 
 /// A heavy rotor on a tower, which its thrust bends by 3 degrees: the axis of the rotation tilts with the tower.
@@ -608,6 +630,31 @@ fn a_rotor_on_a_tower_turns_steadily_under_thrust() {
     assert_eq!(with.len(), without.len());
     for (with, without) in with.iter().zip(&without) {
         assert!((with - without).abs() < 0.05 * without.max(0.05), "{with} {without}");
+    }
+}
+
+/// A tower bends by its load at every speed alike, also above its own frequencies: a balanced rotor moves with the axis that bends with it.
+#[test]
+fn a_rotor_turns_steadily_above_the_frequencies_of_its_tower() {
+    let at = |speed: f64| {
+        let text = ON_A_TOWER
+            .replace("STEADY", "steady_rotation = true")
+            .replace("speed = 4.0", &format!("speed = {speed}"))
+            .replace("end = 2", "end = 0.1");
+        let record = Model::from_text("model.toml", &text).session().unwrap().run().unwrap().into_record();
+        let of = |component| record.column("nacelle", component).unwrap();
+        [of("x")[0], of("z")[0], of("x")[of("x").len() - 1]]
+    };
+    let slow = at(0.5);
+    let still = ON_A_TOWER.replace("STEADY", "velocity = [0, 0, 0]");
+    let diagram = find(&still, &request("parameters.speed", 0.5, 1.0, 2, 3, &[1]));
+    let elastic = diagram.points[0].modes.iter().map(|own| own.mode.frequency).filter(|own| *own > 1e-3);
+    let lowest = TAU * elastic.fold(f64::INFINITY, f64::min);
+    for share in [0.9, 1.1, 2.0, 8.0] {
+        let fast = at(share * lowest);
+        for (fast, slow) in fast.iter().zip(slow) {
+            assert!((fast - slow).abs() < 1e-6, "{share}: {fast} {slow}");
+        }
     }
 }
 

@@ -6,7 +6,8 @@ mod report;
 use std::str::FromStr;
 
 use lissom_core::catalogued;
-use lissom_core::diagnostics::Diagnose;
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
+use lissom_core::interrupt::check;
 use lissom_core::linearized::{Mode, ModeKind, ModeOptions, Whirl};
 use lissom_model::Report;
 use serde::Deserialize;
@@ -23,6 +24,8 @@ use crate::model_text::Model;
 const ALIKE: f64 = 0.3;
 /// Smaller likenesses are reported: a pair of equal frequencies splits into halves.
 const DOUBTFUL: f64 = 0.45;
+/// Number of first values without modes after which the others are not tried.
+const HOPELESS: usize = 3;
 /// Relative accuracy of a crossing's frequency …
 const CROSSED: f64 = 1e-7;
 /// … or maximum number of solutions.
@@ -205,6 +208,8 @@ pub struct CampbellReport {
     pub rays: Vec<u32>,
     /// Warnings.
     pub warnings: Vec<AnalysisWarning>,
+    /// Values without modes, and why.
+    pub failed: Vec<(f64, Diagnostic)>,
 }
 
 impl Analysis for CampbellRequest {
@@ -239,13 +244,32 @@ pub fn campbell(model: &Model, request: &CampbellRequest) -> Result<CampbellRepo
     }
     let last = values.max(2) - 1;
     let mut search = Search { model, request, warnings: Vec::new() };
-    let mut points: Vec<Point> = Vec::new();
-    let mut lines = 0;
+    let (mut points, mut failed): (Vec<Point>, Vec<(f64, Diagnostic)>) = (Vec::new(), Vec::new());
+    let (mut lines, mut first_error) = (0, None);
     for k in 0..=last {
         let value = if k == last { to } else { from + (to - from) * k as f64 / last as f64 };
-        points.push(search.point(value, points.last(), &mut lines)?);
+        match search.point(value, points.last(), &mut lines) {
+            Ok(point) => points.push(point),
+            // Other speeds may have a steady rotation.
+            Err(error @ CampbellError::Modes { .. }) if check().is_ok() => {
+                failed.push((value, error.diagnostic()));
+                first_error.get_or_insert(error);
+            }
+            Err(error) => return Err(error),
+        }
+        if (failed.len() == HOPELESS || k == last) && points.is_empty() {
+            break;
+        }
     }
-    let crossings = search.crossings(&points);
+    if points.is_empty()
+        && let Some(error) = first_error
+    {
+        return Err(error);
+    }
+    if points.iter().all(|point| point.spin == 0.0) {
+        search.warnings.push(AnalysisWarning::NothingRotates { path: path.clone() });
+    }
+    let crossings = search.crossings(&points, &failed);
     search.warnings.dedup();
     Ok(CampbellReport {
         path: path.clone(),
@@ -254,6 +278,7 @@ pub fn campbell(model: &Model, request: &CampbellRequest) -> Result<CampbellRepo
         crossings,
         rays: request.rays.clone(),
         warnings: search.warnings,
+        failed,
     })
 }
 
@@ -323,10 +348,12 @@ impl Search<'_> {
     }
 
     /// Intersections of lines with rays: located between two values, then refined by further solutions.
-    fn crossings(&mut self, points: &[Point]) -> Vec<Crossing> {
+    fn crossings(&mut self, points: &[Point], failed: &[(f64, Diagnostic)]) -> Vec<Crossing> {
         let mut crossings = Vec::new();
-        let pairs: Vec<_> = points.windows(2).collect();
-        for pair in pairs {
+        let is_whole = |pair: &&[Point]| {
+            !failed.iter().any(|(value, _)| (value - pair[0].value) * (value - pair[1].value) < 0.0)
+        };
+        for pair in points.windows(2).filter(is_whole) {
             for of in pair[0].modes.iter().filter(|of| of.mode.kind != ModeKind::Rigid) {
                 for &ray in &self.request.rays {
                     crossings.extend(self.crossing((&pair[0], &pair[1]), of.line, ray));

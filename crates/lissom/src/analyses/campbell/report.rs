@@ -117,6 +117,16 @@ impl AnalysisReport for CampbellReport {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
+    fn missing(&self) -> Option<Diagnostic> {
+        let (_, first) = self.failed.first()?;
+        let others = self.failed.len() - 1;
+        Some(if others == 0 {
+            first.clone()
+        } else {
+            first.clone().within(&format!("no modes, here and at {others} other values of {}", self.path))
+        })
+    }
+
     fn text(&self, time: &str) -> String {
         let mut text =
             format!("  {} lines over {} values of {}, {time}\n", self.lines, self.points.len(), self.path);

@@ -122,7 +122,12 @@ pub enum ModesError {
     /// The rotation is not steady.
     Unsteady(f64),
     /// The rotation is steady only at the azimuth of the start.
-    SteadyHereAlone(f64),
+    SteadyHereAlone {
+        /// Change of the twists at another azimuth.
+        change: f64,
+        /// What may cause it, in words.
+        loads: String,
+    },
     /// Coefficients change as the model rotates.
     Periodic {
         /// Number of the mode, from 1.
@@ -407,10 +412,10 @@ catalogued! {
             remedy: "remove gravity across the axis, loads fixed in space and other motions, which are not steady in rotating axes",
             meaning: "Linearisation about `rotation` requires velocities that are constant in rotating axes.",
         }
-        SteadyHereAlone { 0 => change } => "rotation-steady-at-azimuth" {
-            cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, such as \
-                    under gravity across the axis or other loads fixed in space",
-            remedy: "remove these loads (`--unset gravity`), or let gravity act along the axis",
+        SteadyHereAlone { change => change, loads => loads } => "rotation-steady-at-azimuth" {
+            cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, under \
+                    loads fixed in space that do not act along the axis as it turns: {loads}",
+            remedy: "remove these loads for this analysis (gravity by `--unset gravity`), let them act along the axis, or fix what tilts it",
             meaning: "The velocities are steady at the azimuth of the start, but not at another one: a load is fixed in space.",
         }
         Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
