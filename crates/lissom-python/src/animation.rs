@@ -57,7 +57,8 @@ pub(crate) fn animation(
         let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
         lowered.settings.threads = crate::model::threads_or_all(threads).get();
         let bytes = Bytes::default();
-        let recorder = MotionRecorder::new(&lowered, document.analysis.records.frames_per_second, bytes.clone());
+        let recorder =
+            MotionRecorder::new(&lowered, document.analysis.records.frames_per_second, bytes.clone());
         let scene = Scene::of(&document, &lowered.placed());
         let mut facts = summary::of_model(&model.model, &document, &lowered);
         let mut session = Session::start(lowered).map_err(|error| solution(&error))?;
