@@ -12,7 +12,9 @@ use lissom::core::simulation::InputError;
 use lissom::core::solvers::in_parallel;
 use lissom::{Diagnose, Diagnostic, Prepared, Session, SessionSnapshot, with_code};
 use numpy::ndarray::ArrayViewD;
-use numpy::{AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyReadonlyArray1};
+use numpy::{
+    AllowTypeChange, PyArray1, PyArray3, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyReadonlyArray1,
+};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
@@ -21,6 +23,8 @@ use rayon::prelude::*;
 use crate::cached_session::{CachedSession, ColumnNames, begin};
 use crate::errors::{of_failure, solution, value_error};
 use crate::joints::{JointValues, Joints};
+use crate::model::NativeModel;
+use crate::pictures::{array, framing};
 use crate::simulation::{Names, warn};
 use crate::watch::{EVERY, asked};
 
@@ -69,6 +73,7 @@ impl Member {
 pub(crate) struct Batch {
     members: Mutex<Vec<Member>>,
     count: usize,
+    model: NativeModel,
     prepared: Prepared,
     start: SessionSnapshot,
     names: ColumnNames,
@@ -78,7 +83,7 @@ pub(crate) struct Batch {
 }
 
 impl Batch {
-    pub(crate) fn new(prepared: Prepared, count: usize) -> PyResult<Self> {
+    pub(crate) fn new(model: NativeModel, prepared: Prepared, count: usize) -> PyResult<Self> {
         let session = || prepared.session().map_err(|error| solution(&error));
         let first = session()?;
         let start = first.snapshot();
@@ -94,6 +99,7 @@ impl Batch {
         Ok(Self {
             members,
             count,
+            model,
             prepared,
             start,
             names,
@@ -474,6 +480,27 @@ impl Batch {
         }
         let all = PyArray1::from_vec(py, all);
         Ok(if is_one { all.into_any() } else { all.reshape([self.count, names.len()])?.into_any() })
+    }
+
+    /// Picture of one simulation, as `Simulation.picture`. A simulation without a solution is drawn where it was.
+    ///
+    /// Raises `IndexError` if there is no such simulation; `ValueError` as `Simulation.picture`.
+    #[pyo3(signature = (index, size = [640, 480], view = "chosen".to_owned(), center = None, extent = None))]
+    fn picture<'py>(
+        &self,
+        py: Python<'py>,
+        index: usize,
+        size: [u32; 2],
+        view: String,
+        center: Option<[f64; 3]>,
+        extent: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let framing = framing((size, view, center, extent))?;
+        let camera = self.model.camera()?;
+        let mut members = self.lock(py);
+        let member = members.get_mut(index).ok_or_else(|| self.no_member(index))?;
+        let image = py.detach(move || camera.image(member.cached.session.simulation(), &framing));
+        array(py, image)
     }
 
     fn __repr__(&self) -> String {

@@ -9,6 +9,7 @@ mod errors;
 mod joints;
 mod model;
 mod model_methods;
+mod pictures;
 mod results;
 mod simulation;
 mod sweep;

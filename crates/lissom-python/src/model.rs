@@ -2,7 +2,9 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::num::NonZero;
+use std::sync::{Arc, OnceLock};
 
+use lissom::pictures::picture::Camera;
 use lissom::start::lower;
 use lissom::{Document, Model, SessionError};
 use lissom_model::document::AnalysisKind;
@@ -15,18 +17,29 @@ use crate::errors::{of_report, of_session};
 #[pyclass(frozen, module = "lissom._lissom")]
 pub(crate) struct NativeModel {
     pub(crate) model: Model,
+    /// Draws its simulations; from the first picture on.
+    camera: OnceLock<Arc<Camera>>,
 }
 
 impl NativeModel {
     pub(crate) fn checked(model: Model) -> PyResult<Self> {
         let document = model.document().map_err(|report| of_report(&report))?;
         lower(&document).map_err(|report| of_report(&report))?;
-        Ok(Self { model })
+        Ok(Self { model, camera: OnceLock::new() })
     }
 
     /// The checked document.
     pub(crate) fn document(&self) -> PyResult<Document> {
         self.model.document().map_err(|report| of_report(&report))
+    }
+
+    pub(crate) fn camera(&self) -> PyResult<&Camera> {
+        if self.camera.get().is_none() {
+            let camera = Camera::of(&self.document()?).map_err(|report| of_report(&report))?;
+            // Another thread may have been first, with an equal one.
+            let _ = self.camera.set(Arc::new(camera));
+        }
+        Ok(self.camera.wait())
     }
 
     /// A number that distinguishes models by all their inputs: text, overrides, included files.

@@ -157,7 +157,7 @@ impl NativeModel {
         let own = self.clone();
         interruptible(py, move || {
             let prepared = own.model.prepare().map_err(|error| of_session(&error))?;
-            Batch::new(prepared, count.get())
+            Batch::new(own, prepared, count.get())
         })
     }
 }

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use lissom::core::simulation::SnapshotError;
 use lissom::core::simulation::joint_space::JointMotion;
 use lissom::{Document, Prepared, Session, SessionSnapshot, with_code};
-use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1, PyArrayMethods};
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArray3, PyArrayLike1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
@@ -17,6 +17,7 @@ use crate::cached_session::{CachedSession, ColumnNames, begin};
 use crate::errors::{of_input, solution, value_error};
 use crate::joints::{JointValues, Joints, of_joints};
 use crate::model::NativeModel;
+use crate::pictures::{array, framing};
 use crate::watch::Watch;
 
 /// A name, or several.
@@ -394,6 +395,30 @@ impl Simulation {
             py.detach(|| linearize_here(&self.lock().session, model, &self.document, (&inputs, &outputs)))?;
         warn(py, "ModelWarning", &files.2)?;
         py.import("lissom._linear")?.getattr("LinearModel")?.call_method1("_of", files)
+    }
+
+    /// Picture of the present state as `lissom snapshot` draws it, without title and forces: red, green and blue, an array of shape
+    /// (height, width, 3) and type uint8. `size` is (width, height), `view` is `"chosen"`, `"oblique"`, `"front"`, `"side"` or `"top"`.
+    /// `center` [m] is the position in the middle, `extent` [m] the length of the shorter side; by default they show the model at its
+    /// start. The frame does not depend on the motion.
+    ///
+    /// Raises `ValueError` if there is no such view, or a size is not positive or too large.
+    #[pyo3(signature = (size = [640, 480], view = "chosen".to_owned(), center = None, extent = None))]
+    fn picture<'py>(
+        &self,
+        py: Python<'py>,
+        size: [u32; 2],
+        view: String,
+        center: Option<[f64; 3]>,
+        extent: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let framing = framing((size, view, center, extent))?;
+        let model = self.model.get();
+        let image = py.detach(|| {
+            let camera = model.camera()?;
+            Ok::<_, PyErr>(camera.image(self.lock().session.simulation(), &framing))
+        })?;
+        array(py, image)
     }
 
     /// Where the simulation is, as bytes that can be kept, sent and pickled.

@@ -1,6 +1,6 @@
 """The compiled part of the package."""
 
-from typing import Any, Callable, Mapping, Optional, Sequence, Union, final, overload
+from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ from ._types import Array, Outcome, Parts
 #: Numbers in an array, a list or alone.
 _Numbers = Union[float, Sequence[float], Sequence[Sequence[float]], npt.NDArray[Any]]
 _JointValues = Union[Mapping[str, _Numbers], _Numbers]
+_View = Literal["chosen", "oblique", "front", "side", "top"]
 _Progress = Optional[Callable[[float, float], object]]
 
 __version__: str
@@ -191,6 +192,20 @@ class Simulation:
         Raises `ModelError` if there is no such input or output, `SolutionError` if the model is at rest without being in
         equilibrium.
         """
+    def picture(
+        self,
+        size: Sequence[int] = ...,
+        view: _View = ...,
+        center: Optional[Sequence[float]] = None,
+        extent: Optional[float] = None,
+    ) -> npt.NDArray[np.uint8]:
+        """Picture of the present state as `lissom snapshot` draws it, without title and forces: red, green and blue, an array of
+        shape (height, width, 3) and type uint8. `size` is (width, height), `view` is `"chosen"`, `"oblique"`, `"front"`, `"side"` or
+        `"top"`. `center` [m] is the position in the middle, `extent` [m] the length of the shorter side; by default they show the
+        model at its start. The frame does not depend on the motion.
+
+        Raises `ValueError` if there is no such view, or a size is not positive or too large.
+        """
     def snapshot(self) -> bytes:
         """Where the simulation stands, as bytes that can be kept, sent and pickled."""
     def __reduce__(self) -> tuple[Any, ...]: ...
@@ -280,6 +295,18 @@ class Batch:
     def __getitem__(self, names: Union[str, Sequence[str]], /) -> Array:
         """Present values of a column, a signal, an input or a state, in SI units: of shape (count,); with a list of names of shape
         (count, number of names).
+        """
+    def picture(
+        self,
+        index: int,
+        size: Sequence[int] = ...,
+        view: _View = ...,
+        center: Optional[Sequence[float]] = None,
+        extent: Optional[float] = None,
+    ) -> npt.NDArray[np.uint8]:
+        """Picture of one simulation, as `Simulation.picture`. A simulation without a solution is drawn where it was.
+
+        Raises `IndexError` if there is no such simulation; `ValueError` as `Simulation.picture`.
         """
 
 @final

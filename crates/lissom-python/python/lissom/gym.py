@@ -60,13 +60,31 @@ class Task:
         return limited
 
 
+def _rendering(
+    env: Env | VectorEnv, mode: str | None, picture: Mapping[str, Any] | None
+) -> tuple[str | None, dict[str, Any], dict[str, Any]]:
+    """Render mode, metadata and arguments of pictures of an environment."""
+    modes = env.metadata["render_modes"]
+    if mode is not None and mode not in modes:
+        raise ValueError(f"there is no render mode {mode!r}; the modes are {modes}")
+    return mode, {**env.metadata, "render_fps": 1 / env.task.period}, dict(picture or {})
+
+
 class Env(gymnasium.Env[Array, Array]):
-    """An environment of one simulation, with the arguments of `Task`."""
+    """An environment of one simulation, with the arguments of `Task`.
 
-    metadata = {"render_modes": []}
+    Args:
+        render_mode: `"rgb_array"`: `render` returns a picture of the present state.
+        picture: arguments of `Simulation.picture`: `size`, `view`, `center`, `extent`.
+    """
 
-    def __init__(self, model: Model, **task: Any) -> None:
+    metadata = {"render_modes": ["rgb_array"]}
+
+    def __init__(
+        self, model: Model, *, render_mode: str | None = None, picture: Mapping[str, Any] | None = None, **task: Any
+    ) -> None:
         self.task = Task(**task)
+        self.render_mode, self.metadata, self._picture = _rendering(self, render_mode, picture)
         self.action_space, self.observation_space = self.task.action_space, self.task.observation_space
         #: The `lissom.Simulation`.
         self.sim = model.simulation()
@@ -95,14 +113,27 @@ class Env(gymnasium.Env[Array, Array]):
         ends = bool(task.terminated(self._last)) or self.sim.stopped_by is not None
         return self._last, float(task.reward(self._last, action)), ends, self._steps >= task.steps, {}
 
+    def render(self) -> Any:
+        """Picture of the present state, of shape (height, width, 3); None without a `render_mode`."""
+        return None if self.render_mode is None else self.sim.picture(**self._picture)
+
 
 class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, npt.NDArray[Any]]):
-    """Environments of a `lissom.Batch`, with the arguments of `Task`. One that has ended starts again with the next action."""
+    """Environments of a `lissom.Batch`, with the arguments of `Env`. One that has ended starts again with the next action."""
 
-    metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata = {"render_modes": ["rgb_array"], "autoreset_mode": AutoresetMode.NEXT_STEP}
 
-    def __init__(self, model: Model, num_envs: int, **task: Any) -> None:
+    def __init__(
+        self,
+        model: Model,
+        num_envs: int,
+        *,
+        render_mode: str | None = None,
+        picture: Mapping[str, Any] | None = None,
+        **task: Any,
+    ) -> None:
         self.task, self.num_envs = Task(**task), num_envs
+        self.render_mode, self.metadata, self._picture = _rendering(self, render_mode, picture)
         self.single_action_space, self.single_observation_space = self.task.action_space, self.task.observation_space
         self.action_space = gymnasium.vector.utils.batch_space(self.single_action_space, num_envs)
         self.observation_space = gymnasium.vector.utils.batch_space(self.single_observation_space, num_envs)
@@ -143,3 +174,9 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, npt.NDArray[Any]]):
         truncations = (self._steps >= task.steps) & ~again
         self._ended = terminations | truncations
         return self._last.copy(), rewards, terminations, truncations, {"failed": failed}
+
+    def render(self) -> Any:
+        """Pictures of the present states, one for each environment; None without a `render_mode`."""
+        if self.render_mode is None:
+            return None
+        return tuple(self.batch.picture(index, **self._picture) for index in range(self.num_envs))
