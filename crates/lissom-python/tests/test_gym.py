@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -78,3 +79,43 @@ def test_a_failed_environment_starts_again() -> None:
     env.reset()
     _, reward, terminated, _, facts = env.step(np.array([1.0]))
     assert reward == -7 and terminated and "error" in facts
+
+
+def test_inputs_of_an_episode_are_drawn_when_it_begins() -> None:
+    """The brake is constant in an episode, and the motion is that of the drawn one."""
+    model = lissom.loads(CART)
+    more = task(
+        observations=["cart.x", "speed.v1", "brake"],
+        terminated=lambda observation: observation[..., 1] > 0.25,
+        episode_inputs=lambda rng: {"brake": rng.uniform(0, 1)},
+    )
+    check_env(Env(model, **more), skip_render_check=True)
+    envs = VectorEnv(model, 3, **more)
+    before = envs.reset(seed=1)[0][:, 2]
+    assert len(set(before)) == 3 and np.array_equal(envs.reset(seed=1)[0][:, 2], before)
+    brakes = [before]
+    begins, alone = np.ones(3, bool), [Env(model, **task(observations=["cart.x", "speed.v1", "brake"])) for _ in range(3)]
+    actions = np.array([[1.0], [2.0], [3.0]])
+    for env, brake in zip(alone, before):
+        env.task.episode_inputs = with_brake(brake)
+        env.reset()
+    for _ in range(7):
+        observations, _, terminations, truncations, _ = envs.step(actions)
+        brakes.append(observations[:, 2])
+        assert np.array_equal(brakes[-1] != brakes[-2], begins if len(brakes) > 2 else np.zeros(3, bool))
+        for index, (env, own) in enumerate(zip(alone, observations)):
+            if begins[index] and len(brakes) > 2:
+                env.task.episode_inputs = with_brake(own[2])
+                other, _ = env.reset()
+            else:
+                other = env.step(actions[index])[0]
+            assert np.array_equal(own, other), "as a simulation of its own"
+        begins = terminations | truncations
+    # The first is never fast, and starts again after four steps; the third is, and does so more often.
+    changes = (np.diff(brakes, axis=0) != 0).sum(axis=0)
+    assert changes[0] == 1 and changes[2] >= 2
+    assert np.isclose(observations[0, 0], (1 - brakes[-1][0]) / 4 * 0.2**2)
+
+
+def with_brake(brake: float) -> Callable[[np.random.Generator], dict[str, float]]:
+    return lambda rng: {"brake": brake}

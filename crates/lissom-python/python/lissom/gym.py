@@ -35,6 +35,7 @@ class Task:
         terminated: whether an episode ends with an observation, of the same shape; by default none does.
         start: random joint coordinates and rates of an episode; by default episodes start as the model does.
         failure: reward of a step without a solution, which ends the episode.
+        episode_inputs: random values of inputs that no action sets, constant in an episode: a target, a payload, the gain of a motor.
     """
 
     def __init__(
@@ -47,9 +48,11 @@ class Task:
         terminated: Callable[[Array], Any] | None = None,
         start: Callable[[np.random.Generator], Start] | None = None,
         failure: float = 0.0,
+        episode_inputs: Callable[[np.random.Generator], Mapping[str, float]] | None = None,
     ) -> None:
         self.inputs, self.observations = list(actions), list(observations)
         self.period, self.steps, self.reward, self.start, self.failure = period, steps, reward, start, failure
+        self.episode_inputs = episode_inputs or (lambda rng: {})
         self.terminated = terminated or (lambda observation: np.zeros(observation.shape[:-1], bool))
         low, high = np.array(list(actions.values()), float).reshape(-1, 2).T
         self.action_space = gymnasium.spaces.Box(low, high, dtype=np.float64)
@@ -97,6 +100,8 @@ class Env(gymnasium.Env[Array, Array]):
             self.sim.restore(self._kept)
         else:
             self.sim.reset(*self.task.start(self.np_random))
+        if drawn := self.task.episode_inputs(self.np_random):
+            self.sim.set(drawn)
         self._steps, self._last = 0, self.sim[self.task.observations]
         return self._last, {}
 
@@ -142,6 +147,8 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, npt.NDArray[Any]]):
         self._begin = self.batch.time
         self._steps, self._ended = np.zeros(num_envs, int), np.zeros(num_envs, bool)
         self._last = self.batch[self.task.observations]
+        #: Inputs that are constant in an episode, by name.
+        self._drawn: dict[str, Array] = {}
 
     def _start(self, members: npt.NDArray[np.intp]) -> None:
         if self.task.start is None:
@@ -149,12 +156,17 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, npt.NDArray[Any]]):
         elif len(members):
             q, v = zip(*(self.task.start(self.np_random) for _ in members))
             self.batch.reset(members, np.array(q), np.array(v))
+        for member in members:
+            for name, value in self.task.episode_inputs(self.np_random).items():
+                self._drawn.setdefault(name, np.zeros(self.num_envs))[member] = value
         self._steps[members] = 0
 
     def reset(self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         # One generator serves all environments.
         super().reset(seed=seed[0] if isinstance(seed, list) else seed)
         self._start(np.arange(self.num_envs))
+        if self._drawn:
+            self.batch.set(dict(self._drawn))
         self._ended[:] = False
         self._last = self.batch[self.task.observations]
         return self._last.copy(), {}
@@ -164,7 +176,8 @@ class VectorEnv(gymnasium.vector.VectorEnv[Array, Array, npt.NDArray[Any]]):
         actions = task.clipped(actions)
         self._start(np.flatnonzero(again))
         self._steps[~again] += 1
-        self.batch.set(task.inputs, np.where(again[:, None], self.batch[task.inputs], actions))
+        inputs = np.where(again[:, None], self.batch[task.inputs], actions)
+        self.batch.set([*task.inputs, *self._drawn], np.column_stack([inputs, *self._drawn.values()]))
         self.batch.step_to(self._begin + self._steps * task.period)
         failed = self.batch.failed
         self._last = np.where(failed[:, None], self._last, self.batch[task.observations])
