@@ -12,6 +12,7 @@ pytest.importorskip("gymnasium", reason="the package `gymnasium` is not installe
 
 import lissom
 from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AsyncVectorEnv
 from lissom.gym import Env, VectorEnv
 from test_batch import CART
 
@@ -119,3 +120,32 @@ def test_inputs_of_an_episode_are_drawn_when_it_begins() -> None:
 
 def with_brake(brake: float) -> Callable[[np.random.Generator], dict[str, float]]:
     return lambda rng: {"brake": brake}
+
+
+def test_environments_work_in_processes_of_their_own() -> None:
+    """Both ways of starting a process; a forked one must not wait for threads that it does not have."""
+    alone = cart_environment()
+    actions = np.array([[1.0], [2.0]])
+    for context in ("fork", "spawn"):
+        # Threads of this process, which a fork does not copy.
+        VectorEnv(lissom.loads(CART), 4, **task()).reset()
+        envs = AsyncVectorEnv([cart_environment] * 2, context=context)
+        try:
+            first, _ = envs.reset(seed=[1, 2])
+            assert first.shape == (2, 2) and not first.any()
+            results = [envs.step(actions) for _ in range(4)]
+            pictures = envs.render()
+        finally:
+            envs.close()
+        for index in range(2):
+            alone.reset()
+            for observations, rewards, terminations, truncations, _ in results:
+                own, reward, terminated, truncated, _ = alone.step(actions[index])
+                assert np.array_equal(observations[index], own) and rewards[index] == reward
+                assert (terminations[index], truncations[index]) == (terminated, truncated)
+            assert pictures is not None and np.array_equal(pictures[index], alone.render())
+        assert results[-1][3].all()
+
+
+def cart_environment() -> Env:
+    return Env(lissom.loads(CART), render_mode="rgb_array", picture=dict(size=(40, 30), view="front"), **task())
