@@ -98,6 +98,74 @@ def test_arms_reach_their_target() -> None:
     assert left < 0.01 and computed > random and computed > -0.6
 
 
+def test_a_quadruped_stands_on_its_feet() -> None:
+    from gymnasium.utils.env_checker import check_env
+
+    own = example("quadruped")
+    env = own["environment"]("rgb_array")
+    check_env(env)
+    weight = 9.81 * (8 + 4 * 0.8)
+
+    def episode(action: Any, seed: int = 0) -> tuple[list[Any], float, bool]:
+        observations, total, ended = [env.reset(seed=seed)[0]], 0.0, False
+        while not ended:
+            observation, gain, terminated, truncated, _ = env.step(np.tile(action, 4) if len(action) == 2 else np.array(action))
+            observations.append(observation)
+            total, ended = total + gain, terminated or truncated
+        return observations, total, terminated
+
+    for action, low, high in (((0, 0), 0, 10), (own["STANDING"], 80, 100)):
+        observations, total, fallen = episode(action)
+        assert not fallen and len(observations) == 101 and low < total < high
+        # At rest on the floor: the feet carry the weight, and the legs are bent as much as the height says.
+        carried = [env.sim[f"{leg}_foot.f3"] for leg in own["LEGS"]]
+        assert min(carried) > 10 and sum(carried) == pytest.approx(weight, rel=1e-3)
+        assert np.abs(observations[-1][4:10]).max() < 0.02 and own["upright"](observations[-1]) > 0.999
+        angles = observations[-1][10:18].reshape(4, 2)
+        heights = own["FOOT"] + own["LINK"] * (np.cos(angles[:, 0]) + np.cos(angles.sum(axis=1)))
+        assert np.mean(heights) == pytest.approx(observations[-1][0], abs=2e-3)
+    # Legs that are extended on one side alone overturn it, before the time is over.
+    observations, _, fallen = episode(np.array([[-1, 1], [1, -1]] * 2).ravel())
+    assert fallen and len(observations) < 100 and own["falls"](observations[-1]) and not own["falls"](observations[-2])
+    # Starts are random, by the seed.
+    assert np.array_equal(episode((0, 0), 3)[0], episode((0, 0), 3)[0]) and not np.array_equal(episode((0, 0), 4)[0][0], observations[0])
+    # Friction holds it on a slope of 1 in 5; without friction it slides down.
+    for friction, slides in ((0.8, False), (0.0, True)):
+        changes = {f"contacts.{leg}_foot.friction": friction for leg in own["LEGS"]}
+        env = own["Env"](own["build"]().replace({"gravity": [1.92, 0, -9.62], **changes}), **own["TASK"])
+        assert (abs(episode(own["STANDING"])[0][-1][4]) > 1) == slides
+    # Steps are short enough: shorter ones give the same heights.
+    height = episode(own["STANDING"])[0][-1][0]
+    env = own["Env"](own["build"]().replace({"analysis.step": 1e-3}), **own["TASK"])
+    assert episode(own["STANDING"])[0][-1][0] == pytest.approx(height, abs=2e-3)
+
+
+def test_a_manipulator_holds_its_tip_at_targets_of_episodes() -> None:
+    from gymnasium.utils.env_checker import check_env
+
+    own = example("manipulator")
+    env, policy = own["environment"]("rgb_array"), own["Transposed"]()
+    check_env(env)
+    targets = []
+    for seed in range(3):
+        observation, _ = env.reset(seed=seed)
+        targets.append(observation[9:])
+        assert own["distance"](observation) > 0.05
+        truncated = False
+        while not truncated:
+            observation, reward, terminated, truncated, _ = env.step(policy(observation))
+            assert not terminated and np.array_equal(observation[9:], targets[-1])
+        # At rest the spring of 100 N/m carries the payload, which the policy does not know.
+        sag = [0, 0, env.sim["payload"] * 9.81 / 100]
+        assert observation[9:] - observation[6:9] == pytest.approx(sag, abs=2e-3) and 0 < env.sim["payload"] < 0.5
+        assert -0.2 < reward < -np.linalg.norm(sag) + 2e-3
+    assert len({tuple(target) for target in targets}) == 3
+    envs = own["environments"](3)
+    observations, _ = envs.reset(seed=0)
+    observations, _, _, _, _ = envs.step(np.array([policy(observation) for observation in observations]))
+    assert len({tuple(target) for target in observations[:, 9:]}) == 3
+
+
 def test_the_tutorial_tells_what_the_command_line_tells(program: Program, tmp_path: Path) -> None:
     values = example("tutorial")["values"]
 
