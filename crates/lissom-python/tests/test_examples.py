@@ -166,6 +166,58 @@ def test_a_manipulator_holds_its_tip_at_targets_of_episodes() -> None:
     assert len({tuple(target) for target in observations[:, 9:]}) == 3
 
 
+def test_a_policy_is_learned(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(FOLDER))
+    own = example("learn_to_stand")
+    rng = np.random.default_rng(0)
+    # Derivatives of a network are those of differences.
+    network = own["Network"](rng, [3, 5, 4, 2], 1.0, free=1)
+    x, slope = rng.normal(size=(7, 3)), rng.normal(size=(7, 2))
+    differences = []
+    for values in network.weights + network.biases[:-1]:
+        for index in np.ndindex(values.shape):
+            kept, sums = values[index], []
+            for shift in (1e-6, -1e-6):
+                values[index] = kept + shift
+                sums.append((network(x) * slope).sum())
+            values[index] = kept
+            differences.append((sums[0] - sums[1]) / 2e-6)
+    network(x)
+    network.descend(slope, np.array([3.0]), 0.0)
+    # The first moments are a tenth of the first gradient.
+    found = np.concatenate([10 * first.ravel() for first, _ in network.moments])
+    assert found == pytest.approx([*differences, 3.0], rel=1e-6, abs=1e-8)
+    # Advantages by their definition, with an episode that fails, one that is truncated, and one that goes on.
+    rewards, values = rng.normal(size=(6, 3)), rng.normal(size=(7, 3))
+    terminations, ends = np.zeros((6, 3)), np.zeros((6, 3))
+    terminations[2, 0] = ends[2, 0] = ends[3, 1] = 1
+    found = own["advantages_of"](rewards, values, terminations, ends)
+    discount, trace = own["DISCOUNT"], own["TRACE"]
+    for env in range(3):
+        for first in range(6):
+            wanted = 0.0
+            for k in range(first, 6):
+                later = 0 if terminations[k, env] else discount * values[k + 1, env]
+                wanted += (discount * trace) ** (k - first) * (rewards[k, env] + later - values[k, env])
+                if ends[k, env]:
+                    break
+            assert found[first, env] == pytest.approx(wanted)
+    # Actions become those that are rewarded, with certainty: 0.5 where the observation is 1, and -0.5 where it is -1.
+    agent = own["Agent"](0, 1, 1)
+    observations = np.repeat([[1.0], [-1.0]], 30, axis=0)
+    for _ in range(80):
+        actions = agent.act(observations)
+        agent.learn(observations, actions, -((actions - 0.5 * observations) ** 2)[:, 0], np.zeros(60), 3e-3)
+    assert agent.policy(np.array([[1.0], [-1.0]]))[:, 0] == pytest.approx([0.5, -0.5], abs=0.05)
+    assert np.exp(agent.policy.biases[-1][0]) < 0.2
+    # The whole of it, by the seed.
+    agent, course = own["learn"](iterations=2, count=4, steps=101, show=False)
+    assert np.isfinite(course).all() and own["learn"](iterations=2, count=4, steps=101, show=False)[1] == course
+    assert own["learn"](iterations=1, count=4, steps=101, seed=1, show=False)[1] != course[:1]
+    returns, heights = own["evaluate"](agent, 3)
+    assert returns.shape == heights.shape == (3,) and (heights > 0.05).all() and (heights < 0.5).all()
+
+
 def test_the_tutorial_tells_what_the_command_line_tells(program: Program, tmp_path: Path) -> None:
     values = example("tutorial")["values"]
 
