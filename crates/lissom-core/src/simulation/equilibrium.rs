@@ -113,7 +113,9 @@ pub fn at_rest(
     let (reached, doubts) = match stepped {
         Ok(_) => (reached, doubts),
         Err(error) => {
-            let relaxed = may_help(&error).then(|| relax(&system, &state, &settings, time, &mut 0)).flatten();
+            let relaxed = may_help(&error, &system, &state)
+                .then(|| relax(&system, &state, &settings, time, &mut 0))
+                .flatten();
             relaxed.ok_or_else(|| match free_motion(&system, &state, settings.solver) {
                 Some(free) => InitialError::Free { free },
                 None => InitialError::NoEquilibrium(Box::new(error)),

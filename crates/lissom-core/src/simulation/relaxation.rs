@@ -40,11 +40,15 @@ const FIRST: f64 = 10.0;
 const ITERATIONS: usize = 15;
 
 /// Whether relaxation may find the equilibrium after a load step with this failure.
-pub(crate) fn may_help(error: &StepError) -> bool {
-    matches!(
-        error,
-        StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. }
-    )
+pub(crate) fn may_help(error: &StepError, system: &System, state: &State) -> bool {
+    match error {
+        StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. } => true,
+        // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are refused.
+        StepError::ZeroPivot { .. } => {
+            system.elements_with(|own| own.spring).any(|spring| spring.slack(&state.kinematics).is_some())
+        }
+        _ => false,
+    }
 }
 
 /// The equilibrium of lower energy near the positions of `state`, under the loads and drives at `time` [s], and its warnings; none if it
@@ -120,7 +124,7 @@ impl Simulation {
     /// failed with `error`.
     pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
         let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
-        if !(self.origin.may_relax && is_first && may_help(error)) {
+        if !(self.origin.may_relax && is_first && may_help(error, &self.system, &self.state)) {
             return Err(error.clone());
         }
         let time = self.state.kinematics.time + size;

@@ -443,3 +443,39 @@ output_step = 0.25
         }
     }
 }
+
+/// A mass on three ropes without tension as drawn, taut or slack: nothing resists the first part of its weight, which is ramped.
+#[test]
+fn a_mass_hangs_on_ropes_without_tension_as_drawn() {
+    let (mass, stiffness) = (2.0, 2e4);
+    for length in [2.0_f64.sqrt(), 1.5] {
+        let ropes: String = (0..3)
+            .map(|k| {
+                let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();
+                format!(
+                    "[springs.rope{k}]\nkind = \"rope\"\nstiffness = {stiffness}\nlength = {length}\n\
+                     along = [{{ on = \"ground\", at = [{cosine}, {sine}, 0] }}, {{ on = \"load\" }}]\n"
+                )
+            })
+            .collect();
+        let text = format!(
+            "lissom = 1\ngravity = [0, 0, -9.81]\n[point_masses.load]\nmass = {mass}\nposition = [0, 0, -1]\n{ropes}\
+             [outputs.load]\nkind = \"position\"\nof = \"load\"\n[outputs.rope]\nkind = \"spring\"\nof = \"rope1\"\n\
+             [analysis]\nkind = \"statics\"\n"
+        );
+        let record = run(&text, &[]);
+        // Balance along z, by bisection of the depth.
+        let (mut low, mut high) = (0.0, 10.0);
+        for _ in 0..100 {
+            let depth: f64 = 0.5 * (low + high);
+            let now = depth.hypot(1.0);
+            let held = 3.0 * stiffness * (now - length).max(0.0) * depth / now;
+            if held < mass * 9.81 { low = depth } else { high = depth }
+        }
+        let found = column(&record, "load", "z").last().unwrap() + low;
+        assert!(found.abs() < 1e-8, "{length}: {found} beside {low}");
+        let tension =
+            column(&record, "rope", "force").last().unwrap() - mass * 9.81 * low.hypot(1.0) / (3.0 * low);
+        assert!(tension.abs() < 1e-5, "{length}: {tension}");
+    }
+}
