@@ -449,15 +449,14 @@ output_step = 0.25
 fn a_mass_hangs_on_ropes_without_tension_as_drawn() {
     let (mass, stiffness) = (2.0, 2e4);
     for length in [2.0_f64.sqrt(), 1.5] {
-        let ropes: String = (0..3)
-            .map(|k| {
-                let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();
-                format!(
-                    "[springs.rope{k}]\nkind = \"rope\"\nstiffness = {stiffness}\nlength = {length}\n\
-                     along = [{{ on = \"ground\", at = [{cosine}, {sine}, 0] }}, {{ on = \"load\" }}]\n"
-                )
-            })
-            .collect();
+        let rope = |k: u8| {
+            let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 3.0).sin_cos();
+            format!(
+                "[springs.rope{k}]\nkind = \"rope\"\nstiffness = {stiffness}\nlength = {length}\n\
+                 along = [{{ on = \"ground\", at = [{cosine}, {sine}, 0] }}, {{ on = \"load\" }}]\n"
+            )
+        };
+        let ropes = [0, 1, 2].map(rope).concat();
         let text = format!(
             "lissom = 1\ngravity = [0, 0, -9.81]\n[point_masses.load]\nmass = {mass}\nposition = [0, 0, -1]\n{ropes}\
              [outputs.load]\nkind = \"position\"\nof = \"load\"\n[outputs.rope]\nkind = \"spring\"\nof = \"rope1\"\n\
