@@ -214,7 +214,7 @@ fn motors_have_inputs_and_limits() {
                 <limit effort='3' velocity='5'/></joint></robot>";
     let mjcf = "<mujoco><option gravity='0 0 0'/><worldbody><body name='arm'><joint name='left-hip' axis='0 0 1'/>\
                 <geom type='sphere' size='0.1' pos='0.5 0 0' mass='2'/></body></worldbody>\
-                <actuator><motor joint='left-hip' gear='10' ctrlrange='-0.3 0.3'/><position joint='left-hip' kp='3'/></actuator></mujoco>";
+                <actuator><motor joint='left-hip' gear='10' ctrlrange='-0.3 0.3'/><intvelocity joint='left-hip' kp='3'/></actuator></mujoco>";
     for (text, inertia) in [(urdf, 0.6), (mjcf, 0.508)] {
         let robot = from_description(text).expect("a robot");
         let plain = model_text(&robot, &Pose::default(), Options::default()).unwrap();
@@ -232,5 +232,70 @@ fn motors_have_inputs_and_limits() {
     let robot = from_description(mjcf).unwrap();
     let omitted = omissions(&robot, Options::default());
     assert!(omitted.iter().any(|what| what.contains("`--motors`")), "{omitted:?}");
-    assert!(robot.left_out.iter().any(|what| what.contains("position")), "{:?}", robot.left_out);
+    assert!(robot.left_out.iter().any(|what| what.contains("intvelocity")), "{:?}", robot.left_out);
+}
+
+/// Servos pull with the formulas of the format: force limits act before the gear, an input is a target or a rate.
+#[test]
+fn servos_have_the_forces_of_their_formulas() {
+    let (inertia, options) = (0.5_f64, Options { motors: Motors::Written, ..Options::default() });
+    // The start, the last angle and the last rate after `end`, by an actuator with an input on a hinge.
+    let moved = |actuator: &str, start: f64, input: f64, end: f64| {
+        let text = format!(
+            "<mujoco><compiler angle='radian'/><option gravity='0 0 0'/><worldbody><body name='arm'>\
+             <joint name='hip' axis='0 0 1' range='-1 3' limited='true'/><inertial mass='1' pos='0 0 0' diaginertia='1 1 {inertia}'/>\
+             </body></worldbody><actuator>{actuator}</actuator></mujoco>"
+        );
+        let robot = from_description(&text).expect("a robot");
+        let pose = Pose { values: [("hip".to_owned(), start)].into(), ..Pose::default() };
+        let text = model_text(&robot, &pose, options).unwrap();
+        let (input, end) = (input.to_string(), end.to_string());
+        let set = [("inputs.hip_motor", &*input), ("analysis.end", &*end)];
+        let record = crate::support::runs::run(&text, &set);
+        [
+            crate::support::runs::last(&record, "hip", "angle"),
+            crate::support::runs::last(&record, "hip", "rate"),
+        ]
+    };
+    let near = |found: f64, wanted: f64, what: &str| {
+        assert!((found - wanted).abs() < 1e-6, "{what}: {found} for {wanted}");
+    };
+    // g² kp (u/g - q) turns the hinge as a cosine about u/g, with the rate √(g² kp / J).
+    let rate = (4.0 * 8.0 / inertia).sqrt();
+    let [angle, _] = moved("<position joint='hip' kp='8' gear='2'/>", 0.1, 0.5, 0.3);
+    near(angle, 0.25 + (0.1 - 0.25) * (rate * 0.3_f64).cos(), "a position servo");
+    // The rate approaches u/g exponentially: J ω' = g kv (u - g ω).
+    let [_, found] = moved("<velocity joint='hip' kv='3' gear='0.5'/>", 0.0, 0.4, 0.3);
+    near(found, 0.8 * (1.0 - (-0.25 * 3.0 / inertia * 0.3_f64).exp()), "a velocity servo");
+    // At its limits a servo pulls with a constant force, times the gear.
+    let [_, found] = moved("<position joint='hip' kp='1e5' gear='2' forcerange='-3 3'/>", 0.0, 2.0, 0.05);
+    near(found, 2.0 * 3.0 / inertia * 0.05, "a limited servo");
+    let general =
+        "<general joint='hip' gaintype='affine' gainprm='2 3 0' biastype='affine' biasprm='0.5 0 -1'/>";
+    let [angle, found] = moved(general, 0.0, 0.1, 1e-3);
+    near(found, (0.2 + 0.5) * (1.0 - (-1e-3 / inertia).exp()), "gain and bias");
+    assert!(angle > 0.0);
+    // A spring and damper alone, with a gear: J q'' = g (-4 g q - g q') from 0.1.
+    let alone = "<general joint='hip' gear='3' gainprm='0' biastype='affine' biasprm='0 -4 -1'/>";
+    let [_, found] = moved(alone, 0.1, 7.0, 1e-4);
+    near(found, -9.0 * 4.0 * 0.1 / inertia * 1e-4, "a bias without a gain");
+    // The range of the joint limits the target.
+    let [_, found] = moved("<position joint='hip' kp='8' inheritrange='0.5'/>", 0.0, 100.0, 1e-3);
+    near(found, 8.0 * 2.0 / inertia * 1e-3, "an inherited range");
+}
+
+/// A servo that is omitted also pulls without a command; at a key frame inputs have its controls.
+#[test]
+fn servos_are_reported_and_start_at_the_controls_of_key_frames() {
+    let text = "<mujoco><worldbody><body name='arm'><joint name='hip'/><inertial mass='1' pos='1 0 0' diaginertia='1 1 1'/></body></worldbody>\
+                <actuator><muscle joint='hip'/><position joint='hip' kp='3'/></actuator>\
+                <keyframe><key name='home' qpos='0.2' ctrl='7 0.2'/></keyframe></mujoco>";
+    let mut robot = from_description(text).expect("a robot");
+    let omitted = omissions(&robot, Options::default());
+    assert!(omitted.iter().any(|what| what.contains("without a command, of 1 of them")), "{omitted:?}");
+    assert!(robot.left_out.iter().any(|what| what.contains("muscle")), "{:?}", robot.left_out);
+    robot.start_at("home").expect("a key frame");
+    let options = Options { motors: Motors::Written, ..Options::default() };
+    let text = model_text(&robot, &Pose::default(), options).unwrap();
+    assert!(text.contains("hip_motor = 0.2\n"), "{text}");
 }

@@ -17,6 +17,8 @@ pub struct Keyframe {
     pub name: String,
     /// Coordinates of all joints, in their order; none if it is that of the description.
     pub positions: Vec<f64>,
+    /// Inputs of all actuators, in their order; none if they are zero.
+    pub inputs: Vec<f64>,
     /// Location in the description.
     pub source: String,
 }
@@ -42,8 +44,11 @@ impl Robot {
             let known = if names.is_empty() { "it has none".to_owned() } else { names.join(", ") };
             return Err(ImportError::new(format!("there is no key frame `{name}`: {known}")));
         };
-        let Keyframe { positions, source, .. } = keyframe.clone();
+        let Keyframe { positions, inputs, source, .. } = keyframe.clone();
         let fault = |message: String| ImportError::new(format!("{source}: key frame `{name}`: {message}"));
+        for motor in &mut self.motors {
+            motor.start = inputs.get(motor.number).copied().unwrap_or_default();
+        }
         let wanted: usize = self.joints.iter().map(|joint| width(joint.freedom)).sum();
         if positions.is_empty() {
             return Ok(BTreeMap::new());

@@ -633,6 +633,12 @@ pub fn omissions(robot: &Robot, options: Options) -> Vec<String> {
             1 => all.push("the command of 1 motor: `--motors` writes an input".to_owned()),
             count => all.push(format!("the commands of {count} motors: `--motors` writes inputs")),
         }
+        let servos = robot.motors.iter().filter(|motor| motor.bias != [0.0; 3]).count();
+        if servos > 0 {
+            all.push(format!(
+                "forces that motors have also without a command, of {servos} of them: `--motors` writes them"
+            ));
+        }
     }
     let is_omitted = |joint: &&super::RobotJoint| {
         !joint.moves() && (joint.friction > 0.0 || joint.damping > 0.0 && joint.freedom == Freedom::Floating)

@@ -2,20 +2,93 @@
 
 use std::fmt::Write;
 
+use lissom_core::number::Written;
+
 use super::joint_text::Placed;
 use super::{Freedom, Robot};
 
-/// A motor on a joint's coordinate.
+/// A motor or a servo on a joint's coordinate.
+///
+/// Legend: u input, q coordinate, g gear, a and b gain and bias
+///
+/// ```text
+/// ℓ = g q,   f = clamp((a₀ + a₁ ℓ + a₂ ℓ̇) u + b₀ + b₁ ℓ + b₂ ℓ̇),   torque or force of the joint g f
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
     /// Index of its joint.
     pub joint: usize,
-    /// Torque or force per unit of its input [N m, N].
+    /// Number of the motor among all actuators of the description.
+    pub number: usize,
+    /// Its length per coordinate.
     pub gear: f64,
+    /// Force per input, and its change with length and rate.
+    pub gain: [f64; 3],
+    /// Force without input, and its change with length and rate.
+    pub bias: [f64; 3],
     /// Limits of its input, if it has any.
     pub input: Option<[f64; 2]>,
-    /// Limits of its torque or force [N m, N], if it has any.
+    /// Limits of its force, before the gear, if it has any.
+    pub force: Option<[f64; 2]>,
+    /// Limits of the joint's torque or force [N m, N], if it has any.
     pub effort: Option<[f64; 2]>,
+    /// Its input at the start.
+    pub start: f64,
+}
+
+impl Motor {
+    /// A motor whose input is its torque or force [N m, N].
+    pub(super) fn direct(joint: usize, effort: [f64; 2]) -> Self {
+        let (gain, bias) = ([1.0, 0.0, 0.0], [0.0; 3]);
+        Self {
+            joint,
+            number: joint,
+            gear: 1.0,
+            gain,
+            bias,
+            input: None,
+            force: None,
+            effort: Some(effort),
+            start: 0.0,
+        }
+    }
+
+    /// The torque or force of its joint over the input and the coordinate.
+    fn law(&self, input: &str, coordinate: &str, rate: &str) -> String {
+        let sum = |[constant, by_length, by_rate]: [f64; 3]| {
+            let scaled = [(constant, ""), (self.gear * by_length, coordinate), (self.gear * by_rate, rate)];
+            let terms =
+                scaled.iter().filter(|(factor, _)| *factor != 0.0).map(|(factor, name)| match *name {
+                    "" => format!("{factor:?}"),
+                    name => format!("{factor:?}*{name}"),
+                });
+            terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ")
+        };
+        let input = limited(input.to_owned(), self.input);
+        let driven = match (self.gain, sum(self.gain)) {
+            ([1.0, 0.0, 0.0], _) => input,
+            (_, none) if none.is_empty() => String::new(),
+            ([_, 0.0, 0.0], factor) => format!("{factor}*{input}"),
+            (_, factor) => format!("({factor})*{input}"),
+        };
+        let all: Vec<String> = [driven, sum(self.bias)].into_iter().filter(|term| !term.is_empty()).collect();
+        let sum = if all.is_empty() { "0".to_owned() } else { all.join(" + ").replace("+ -", "- ") };
+        let is_product = self.force.is_some() || !sum.contains(' ');
+        let force = limited(sum, self.force);
+        let geared = match self.gear {
+            1.0 => force,
+            gear if is_product => format!("{gear:?}*{force}"),
+            gear => format!("{gear:?}*({force})"),
+        };
+        limited(geared, self.effort)
+    }
+}
+
+fn limited(words: String, limits: Option<[f64; 2]>) -> String {
+    match limits {
+        Some([low, high]) => format!("clamp({words}, {low:?}, {high:?})"),
+        None => words,
+    }
 }
 
 /// Treatment of motors.
@@ -33,7 +106,7 @@ impl Robot {
         let of = |(joint, own): (usize, &super::RobotJoint)| {
             let effort =
                 own.rating.effort.filter(|effort| *effort > 0.0 && own.moves() && own.follows.is_none())?;
-            Some(Motor { joint, gear: 1.0, input: None, effort: Some([-effort, effort]) })
+            Some(Motor::direct(joint, [-effort, effort]))
         };
         self.motors = self.joints.iter().enumerate().filter_map(of).collect();
     }
@@ -44,7 +117,7 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
     if robot.motors.is_empty() {
         return;
     }
-    text.push_str("\n# Motors: an input is zero until a program or an event sets it.\n[inputs]\n");
+    text.push_str("\n# Motors: an input keeps its value until a program or an event sets it.\n[inputs]\n");
     let mut names: Vec<String> = Vec::new();
     for motor in &robot.motors {
         let mut name = format!("{}_motor", placed[motor.joint].own);
@@ -52,23 +125,16 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
             name.push('_');
         }
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{name} = 0");
+        let _ = writeln!(text, "{name} = {}", Written(motor.start));
         names.push(name);
     }
     for (motor, name) in robot.motors.iter().zip(&names) {
         let joint = &placed[motor.joint].own;
-        let (kind, key) = match robot.joints[motor.joint].freedom {
-            Freedom::Rotation => ("joint_torque", "torque"),
-            _ => ("joint_force", "force"),
+        let (kind, key, coordinate) = match robot.joints[motor.joint].freedom {
+            Freedom::Rotation => ("joint_torque", "torque", "angle"),
+            _ => ("joint_force", "force", "displacement"),
         };
-        let limited = |words: String, limits: Option<[f64; 2]>| match limits {
-            Some([low, high]) => format!("clamp({words}, {low:?}, {high:?})"),
-            None => words,
-        };
-        let input = limited(name.clone(), motor.input);
-        let scaled = if motor.gear == 1.0 { input } else { format!("{:?}*{input}", motor.gear) };
-        let size = limited(scaled, motor.effort);
-        let _ =
-            write!(text, "\n[loads.{name}]\nkind = \"{kind}\"\njoint = \"{joint}\"\n{key} = \"{size}\"\n");
+        let law = motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.rate"));
+        let _ = write!(text, "\n[loads.{name}]\nkind = \"{kind}\"\njoint = \"{joint}\"\n{key} = \"{law}\"\n");
     }
 }

@@ -83,7 +83,7 @@ pub(super) fn joint(
 }
 
 /// The range, if it is enabled by its flag or by being given.
-fn limits(
+pub(super) fn limits(
     element: &Element,
     (key, word): (&str, &str),
     autolimits: bool,

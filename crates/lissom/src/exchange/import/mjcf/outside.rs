@@ -7,6 +7,7 @@ use lissom_motion::Vector3;
 use super::super::xml::counted;
 use super::super::{Closure, ImportError, JointTendon, Keyframe, Motor, Robot, Rope};
 use super::element::Element;
+use super::joint::limits;
 use super::touching;
 use super::tree::Node;
 
@@ -65,7 +66,7 @@ pub(super) fn set_total_mass(compiler: &Element, robot: &mut Robot) -> Result<()
 /// Reads all sections except bodies into `robot`.
 pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
     let handled = ["compiler", "default", "worldbody", "option", "tendon", "actuator"];
-    let mut others = Vec::new();
+    let (mut others, mut actuators) = (Vec::new(), 0);
     for node in &root.children {
         match node.tag() {
             "option" => {
@@ -86,10 +87,11 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
             }
             "actuator" => {
                 for own in &node.children {
-                    match robot.keep(motor(own, robot)) {
+                    match robot.keep(motor(own, actuators, robot)) {
                         Some(Some(motor)) => robot.motors.push(motor),
                         _ => others.push(own.tag().to_owned()),
                     }
+                    actuators += 1;
                 }
             }
             "keyframe" => {
@@ -125,16 +127,17 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
     }
 }
 
-/// A position of all joints. Velocities and activations are omitted.
+/// A position of all joints, and inputs of all actuators. Velocities and activations are omitted.
 fn keyframe(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
     let own = &node.element;
-    own.check_known(&["name", "qpos", "qvel"], &["time", "act", "ctrl", "mpos", "mquat"])?;
+    own.check_known(&["name", "qpos", "qvel", "ctrl"], &["time", "act", "mpos", "mquat"])?;
     let name = own.text("name").map_or_else(|| format!("key{}", robot.keyframes.len()), str::to_owned);
     if own.list("qvel")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
         robot.left_out.push(format!("the velocities of key frame `{name}`"));
     }
     let positions = own.list("qpos")?.unwrap_or_default();
-    robot.keyframes.push(Keyframe { name, positions, source: own.location().to_owned() });
+    let inputs = own.list("ctrl")?.unwrap_or_default();
+    robot.keyframes.push(Keyframe { name, positions, inputs, source: own.location().to_owned() });
     Ok(())
 }
 
@@ -160,20 +163,54 @@ fn option(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// A `motor` on a joint; none for other actuators, whose forces follow from laws of their own.
-fn motor(node: &Node, robot: &Robot) -> Result<Option<Motor>, ImportError> {
+/// An actuator on a joint, by its number; none for those with states, muscles, and those on other things.
+fn motor(node: &Node, number: usize, robot: &Robot) -> Result<Option<Motor>, ImportError> {
     let own = &node.element;
-    let Some(name) = own.text("joint").filter(|_| own.has_tag("motor")) else { return Ok(None) };
+    let Some(name) = own.text("joint") else { return Ok(None) };
     let Some(joint) = robot.joints.iter().position(|joint| joint.name == name && joint.moves()) else {
         return Ok(None);
     };
-    let gear = own.list("gear")?.and_then(|all| all.first().copied()).unwrap_or(1.0);
-    let limits = |key: &str, word: &str| -> Result<Option<[f64; 2]>, ImportError> {
-        Ok(own.numbers::<2>(key)?.filter(|_| own.text(word) != Some("false")))
+    let parameters = |key: &str, first: f64| -> Result<[f64; 3], ImportError> {
+        let given = own.list(key)?.unwrap_or_default();
+        let of = |k: usize| given.get(k).copied().unwrap_or(if k == 0 { first } else { 0.0 });
+        Ok([0, 1, 2].map(of))
     };
-    let (input, own_effort) = (limits("ctrlrange", "ctrllimited")?, limits("forcerange", "forcelimited")?);
-    let of_joint = robot.joints[joint].rating.effort.map(|effort| [-effort, effort]);
-    Ok(Some(Motor { joint, gear, input, effort: own_effort.or(of_joint) }))
+    let (mut gain, mut bias) = ([1.0, 0.0, 0.0], [0.0; 3]);
+    match node.tag() {
+        "motor" => {}
+        "position" if own.number("timeconst", 0.0)? == 0.0 && own.number("dampratio", 0.0)? == 0.0 => {
+            let stiffness = own.number("kp", 1.0)?;
+            (gain[0], bias) = (stiffness, [0.0, -stiffness, -own.number("kv", 0.0)?]);
+        }
+        "velocity" => {
+            gain[0] = own.number("kv", 1.0)?;
+            bias[2] = -gain[0];
+        }
+        "damper" => gain = [0.0, 0.0, -own.number("kv", 1.0)?],
+        "general" if matches!(own.text("dyntype"), None | Some("none")) => {
+            gain = match own.text("gaintype") {
+                None | Some("fixed") => [parameters("gainprm", 1.0)?[0], 0.0, 0.0],
+                Some("affine") => parameters("gainprm", 1.0)?,
+                Some(_) => return Ok(None),
+            };
+            match own.text("biastype") {
+                None | Some("none") => {}
+                Some("affine") => bias = parameters("biasprm", 0.0)?,
+                Some(_) => return Ok(None),
+            }
+        }
+        _ => return Ok(None),
+    }
+    let gear = own.list("gear")?.and_then(|all| all.first().copied()).unwrap_or(1.0);
+    let limits = |key: &str, word: &str| limits(own, (key, word), node.settings.autolimits);
+    let mut input = limits("ctrlrange", "ctrllimited")?;
+    if let (Some(share), Some([low, high])) = (own.numbers::<1>("inheritrange")?, robot.joints[joint].range) {
+        let (middle, half) = (0.5 * (low + high), 0.5 * share[0] * (high - low));
+        input = Some([middle - half, middle + half]).filter(|_| share[0] > 0.0).or(input);
+    }
+    let effort = robot.joints[joint].rating.effort.map(|effort| [-effort, effort]);
+    let force = limits("forcerange", "forcelimited")?;
+    Ok(Some(Motor { joint, number, gear, gain, bias, input, force, effort, start: 0.0 }))
 }
 
 /// Joints that follow others become mimic joints; bodies that are connected close loops; other equalities are reported.
