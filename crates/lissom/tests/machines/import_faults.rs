@@ -242,7 +242,7 @@ fn servos_have_the_forces_of_their_formulas() {
     // The start, the last angle and the last rate after `end`, by an actuator with an input on a hinge.
     let moved = |actuator: &str, start: f64, input: f64, end: f64| {
         let text = format!(
-            "<mujoco><compiler angle='radian'/><option gravity='0 0 0'/><worldbody><body name='arm'>\
+            "<mujoco><compiler angle='radian'/><default><general gear='2'/><position kp='8'/></default><option gravity='0 0 0'/><worldbody><body name='arm'>\
              <joint name='hip' axis='0 0 1' range='-1 3' limited='true'/><inertial mass='1' pos='0 0 0' diaginertia='1 1 {inertia}'/>\
              </body></worldbody><actuator>{actuator}</actuator></mujoco>"
         );
@@ -262,16 +262,15 @@ fn servos_have_the_forces_of_their_formulas() {
     };
     // g² kp (u/g - q) turns the hinge as a cosine about u/g, with the rate √(g² kp / J).
     let rate = (4.0 * 8.0 / inertia).sqrt();
-    let [angle, _] = moved("<position joint='hip' kp='8' gear='2'/>", 0.1, 0.5, 0.3);
+    let [angle, _] = moved("<position joint='hip'/>", 0.1, 0.5, 0.3);
     near(angle, 0.25 + (0.1 - 0.25) * (rate * 0.3_f64).cos(), "a position servo");
     // The rate approaches u/g exponentially: J ω' = g kv (u - g ω).
     let [_, found] = moved("<velocity joint='hip' kv='3' gear='0.5'/>", 0.0, 0.4, 0.3);
     near(found, 0.8 * (1.0 - (-0.25 * 3.0 / inertia * 0.3_f64).exp()), "a velocity servo");
     // At its limits a servo pulls with a constant force, times the gear.
-    let [_, found] = moved("<position joint='hip' kp='1e5' gear='2' forcerange='-3 3'/>", 0.0, 2.0, 0.05);
+    let [_, found] = moved("<position joint='hip' kp='1e5' forcerange='-3 3'/>", 0.0, 2.0, 0.05);
     near(found, 2.0 * 3.0 / inertia * 0.05, "a limited servo");
-    let general =
-        "<general joint='hip' gaintype='affine' gainprm='2 3 0' biastype='affine' biasprm='0.5 0 -1'/>";
+    let general = "<general joint='hip' gear='1' gaintype='affine' gainprm='2 3 0' biastype='affine' biasprm='0.5 0 -1'/>";
     let [angle, found] = moved(general, 0.0, 0.1, 1e-3);
     near(found, (0.2 + 0.5) * (1.0 - (-1e-3 / inertia).exp()), "gain and bias");
     assert!(angle > 0.0);
@@ -280,7 +279,7 @@ fn servos_have_the_forces_of_their_formulas() {
     let [_, found] = moved(alone, 0.1, 7.0, 1e-4);
     near(found, -9.0 * 4.0 * 0.1 / inertia * 1e-4, "a bias without a gain");
     // The range of the joint limits the target.
-    let [_, found] = moved("<position joint='hip' kp='8' inheritrange='0.5'/>", 0.0, 100.0, 1e-3);
+    let [_, found] = moved("<position joint='hip' kp='8' gear='1' inheritrange='0.5'/>", 0.0, 100.0, 1e-3);
     near(found, 8.0 * 2.0 / inertia * 1e-3, "an inherited range");
 }
 

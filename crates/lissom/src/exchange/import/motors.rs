@@ -14,7 +14,7 @@ use super::{Freedom, Robot};
 /// ```text
 /// ℓ = g q,   f = clamp((a₀ + a₁ ℓ + a₂ ℓ̇) u + b₀ + b₁ ℓ + b₂ ℓ̇),   torque or force of the joint g f
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motor {
     /// Index of its joint.
     pub joint: usize,
@@ -39,18 +39,7 @@ pub struct Motor {
 impl Motor {
     /// A motor whose input is its torque or force [N m, N].
     pub(super) fn direct(joint: usize, effort: [f64; 2]) -> Self {
-        let (gain, bias) = ([1.0, 0.0, 0.0], [0.0; 3]);
-        Self {
-            joint,
-            number: joint,
-            gear: 1.0,
-            gain,
-            bias,
-            input: None,
-            force: None,
-            effort: Some(effort),
-            start: 0.0,
-        }
+        Self { joint, gear: 1.0, gain: [1.0, 0.0, 0.0], effort: Some(effort), ..Self::default() }
     }
 
     /// The torque or force of its joint over the input and the coordinate.

@@ -9,6 +9,11 @@ use super::super::xml::{finite_numbers, location};
 
 pub(super) type Attributes = BTreeMap<String, String>;
 
+/// Actuators, whose defaults are one element in the format …
+const ACTUATORS: [&str; 5] = ["motor", "position", "velocity", "damper", "general"];
+/// … except for their laws.
+const OF_ACTUATORS: [&str; 5] = ["ctrlrange", "ctrllimited", "forcerange", "forcelimited", "gear"];
+
 /// Default attributes by class and tag; a class inherits those of its enclosing classes.
 pub(super) struct Classes {
     by_name: BTreeMap<String, BTreeMap<String, Attributes>>,
@@ -37,12 +42,15 @@ impl Classes {
     ) -> Result<(), ImportError> {
         let elements = || node.children().filter(Node::is_element);
         for element in elements().filter(|element| !element.has_tag_name("default")) {
-            let own = by_tag.entry(element.tag_name().name().to_owned()).or_default();
-            own.extend(
-                element
-                    .attributes()
-                    .map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())),
-            );
+            let tag = element.tag_name().name();
+            let given: Attributes =
+                element.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())).collect();
+            for other in ACTUATORS.iter().filter(|other| ACTUATORS.contains(&tag) && **other != tag) {
+                let shared = given.iter().filter(|(key, _)| OF_ACTUATORS.contains(&key.as_str()));
+                let shared = shared.map(|(key, value)| (key.clone(), value.clone()));
+                by_tag.entry((*other).to_owned()).or_default().extend(shared);
+            }
+            by_tag.entry(tag.to_owned()).or_default().extend(given);
         }
         for inner in elements().filter(|element| element.has_tag_name("default")) {
             let name = inner.attribute("class").ok_or_else(|| {
