@@ -1,4 +1,5 @@
-"""Reinforcement learning without a framework: the robot of `quadruped.py` learns to stand up, by proximal policy optimisation (PPO).
+"""Reinforcement learning without a framework: a policy by which the robot of `quadruped.py` stands up, by proximal policy
+optimisation (PPO).
 
 Policy and value are networks of two hidden layers in NumPy; environments of a `lissom.gym.VectorEnv` provide the experience. In two
 minutes on two processors, 145 000 actions, the mean return of an episode rises from -2 to between 79 and 90 of at most 100, by the seed.

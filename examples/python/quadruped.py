@@ -1,7 +1,7 @@
 """Environment of Gymnasium: a robot on four legs, which starts in a crouch and is rewarded for standing upright.
 
 Each leg has a hip and a knee, which servos turn towards the angles that the actions select. The feet touch the floor with friction.
-Needs `pip install lissom[gym]`. `learn_to_stand.py` learns it.
+Needs `pip install lissom[gym]`. `learn_to_stand.py` finds a policy for it.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ const ITERATIONS: usize = 15;
 pub(crate) fn may_help(error: &StepError, system: &System, state: &State) -> bool {
     match error {
         StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. } => true,
-        // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are refused.
+        // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are rejected.
         StepError::ZeroPivot { .. } => {
             system.elements_with(|own| own.spring).any(|spring| spring.slack(&state.kinematics).is_some())
         }

@@ -20,7 +20,7 @@ pub struct Motor {
     pub joint: usize,
     /// Number of the motor among all actuators of the description.
     pub number: usize,
-    /// Its length per coordinate.
+    /// Length of the motor per coordinate.
     pub gear: f64,
     /// Force per input, and its change with length and rate.
     pub gain: [f64; 3],
@@ -32,7 +32,7 @@ pub struct Motor {
     pub force: Option<[f64; 2]>,
     /// Limits of the joint's torque or force [N m, N], if it has any.
     pub effort: Option<[f64; 2]>,
-    /// Its input at the start.
+    /// Input at the start.
     pub start: f64,
 }
 
