@@ -298,3 +298,43 @@ fn servos_are_reported_and_start_at_the_controls_of_key_frames() {
     let text = model_text(&robot, &Pose::default(), options).unwrap();
     assert!(text.contains("hip_motor = 0.2\n"), "{text}");
 }
+
+/// Limits of a joint hold for the sum of its motors and may differ in both directions, as in MuJoCo 4.0, whose figures these are.
+#[test]
+fn motors_of_one_joint_share_its_limits() {
+    let text = "<mujoco><option gravity='0 0 0'/><worldbody><body name='arm'><joint name='hip' actuatorfrcrange='-1 3'/>\
+                <inertial mass='1' pos='0 0 0' diaginertia='1 1 0.5'/></body></worldbody>\
+                <actuator><motor joint='hip'/><motor joint='hip' gear='2'/></actuator></mujoco>";
+    let robot = from_description(text).expect("a robot");
+    let options = Options { motors: Motors::Written, ..Options::default() };
+    let text = model_text(&robot, &Pose::default(), options).unwrap();
+    for (one, other, torque) in [("5", "-1", 3.0), ("-5", "-1", -1.0), ("0.5", "0.25", 1.0)] {
+        let set = [("inputs.hip_motor", one), ("inputs.hip_motor_", other), ("analysis.end", "0.1")];
+        let record = crate::support::runs::run(&text, &set);
+        let rate = crate::support::runs::last(&record, "hip", "rate");
+        assert!((rate - 0.1 * torque / 0.5).abs() < 1e-6, "{one}, {other}: {rate}");
+    }
+}
+
+/// Actuators that options disable exert no force and keep their place among the controls of key frames.
+#[test]
+fn disabled_actuators_are_omitted() {
+    for (option, count) in [
+        ("<option actuatorgroupdisable='0 3'/>", 1),
+        ("<option><flag actuation='disable'/></option>", 0),
+        ("<option/>", 3),
+    ] {
+        let text = format!(
+            "<mujoco>{option}<worldbody><body name='arm'><joint name='hip'/><inertial mass='1' pos='1 0 0' diaginertia='1 1 1'/>\
+             </body></worldbody><actuator><motor joint='hip'/><position joint='hip' kp='3' group='3'/><motor joint='hip' group='2'/>\
+             </actuator><keyframe><key name='home' ctrl='1 2 3'/></keyframe></mujoco>"
+        );
+        let mut robot = from_description(&text).expect("a robot");
+        assert_eq!(robot.motors.len(), count, "{option}");
+        let is_reported =
+            robot.left_out.iter().any(|what| what.contains("actuators that the options disable"));
+        assert_eq!(is_reported, count < 3, "{:?}", robot.left_out);
+        robot.start_at("home").expect("a key frame");
+        assert!(robot.motors.last().is_none_or(|motor| motor.start == 3.0), "{:?}", robot.motors);
+    }
+}

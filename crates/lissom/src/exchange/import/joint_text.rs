@@ -74,10 +74,14 @@ pub(super) fn write_joint(
 
 /// The maximum torque and speed of a motor, as comments.
 fn write_rating(text: &mut String, joint: &RobotJoint) {
-    if let Some(effort) = joint.rating.effort {
+    if let Some([low, high]) = joint.rating.effort {
         let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
-        let _ =
-            writeln!(text, "# the motor of {} exerts at most {effort:?} {unit}", joint.name.escape_debug());
+        let limits = if low == -high {
+            format!("at most {high:?} {unit}")
+        } else {
+            format!("{low:?} to {high:?} {unit}")
+        };
+        let _ = writeln!(text, "# the motor of {} exerts {limits}", joint.name.escape_debug());
     }
     if let Some(speed) = joint.rating.speed {
         let unit = if joint.freedom == Freedom::Rotation { "rad/s" } else { "m/s" };

@@ -215,8 +215,8 @@ pub enum Freedom {
 /// What the motor of a joint is designed for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotorRating {
-    /// Greatest torque or force [N m, N].
-    pub effort: Option<f64>,
+    /// Least and greatest torque or force of all motors together [N m, N].
+    pub effort: Option<[f64; 2]>,
     /// Maximum speed [rad/s, m/s]; it is not enforced.
     pub speed: Option<f64>,
 }

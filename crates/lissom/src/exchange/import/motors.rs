@@ -30,19 +30,17 @@ pub struct Motor {
     pub input: Option<[f64; 2]>,
     /// Limits of its force, before the gear, if it has any.
     pub force: Option<[f64; 2]>,
-    /// Limits of the joint's torque or force [N m, N], if it has any.
-    pub effort: Option<[f64; 2]>,
     /// Input at the start.
     pub start: f64,
 }
 
 impl Motor {
     /// A motor whose input is its torque or force [N m, N].
-    pub(super) fn direct(joint: usize, effort: [f64; 2]) -> Self {
-        Self { joint, gear: 1.0, gain: [1.0, 0.0, 0.0], effort: Some(effort), ..Self::default() }
+    pub(super) fn direct(joint: usize) -> Self {
+        Self { joint, gear: 1.0, gain: [1.0, 0.0, 0.0], ..Self::default() }
     }
 
-    /// The torque or force of its joint over the input and the coordinate.
+    /// The torque or force of its joint over the input and the coordinate, without the limits of the joint.
     fn law(&self, input: &str, coordinate: &str, rate: &str) -> String {
         let sum = |[constant, by_length, by_rate]: [f64; 3]| {
             let scaled = [(constant, ""), (self.gear * by_length, coordinate), (self.gear * by_rate, rate)];
@@ -64,12 +62,11 @@ impl Motor {
         let sum = if all.is_empty() { "0".to_owned() } else { all.join(" + ").replace("+ -", "- ") };
         let is_product = self.force.is_some() || !sum.contains(' ');
         let force = limited(sum, self.force);
-        let geared = match self.gear {
+        match self.gear {
             1.0 => force,
             gear if is_product => format!("{gear:?}*{force}"),
             gear => format!("{gear:?}*({force})"),
-        };
-        limited(geared, self.effort)
+        }
     }
 }
 
@@ -93,9 +90,8 @@ impl Robot {
     /// A motor for each moving joint with an effort that follows no other, where the description lists no motors.
     pub(super) fn motors_by_effort(&mut self) {
         let of = |(joint, own): (usize, &super::RobotJoint)| {
-            let effort =
-                own.rating.effort.filter(|effort| *effort > 0.0 && own.moves() && own.follows.is_none())?;
-            Some(Motor::direct(joint, [-effort, effort]))
+            let [_, effort] = own.rating.effort?;
+            (effort > 0.0 && own.moves() && own.follows.is_none()).then(|| Motor::direct(joint))
         };
         self.motors = self.joints.iter().enumerate().filter_map(of).collect();
     }
@@ -117,13 +113,26 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
         let _ = writeln!(text, "{name} = {}", Written(motor.start));
         names.push(name);
     }
-    for (motor, name) in robot.motors.iter().zip(&names) {
+    for (number, (motor, name)) in robot.motors.iter().zip(&names).enumerate() {
         let joint = &placed[motor.joint].own;
         let (kind, key, coordinate) = match robot.joints[motor.joint].freedom {
             Freedom::Rotation => ("joint_torque", "torque", "angle"),
             _ => ("joint_force", "force", "displacement"),
         };
-        let law = motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.rate"));
+        let law = |motor: &Motor, name: &str| {
+            motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.rate"))
+        };
+        let is_shared = |(other, _): &(&Motor, &String)| other.joint == motor.joint;
+        let law = match robot.joints[motor.joint].rating.effort {
+            None => law(motor, name),
+            // The limits of a joint hold for the sum of its motors, which the first of them exerts.
+            Some(_) if robot.motors[..number].iter().any(|other| other.joint == motor.joint) => continue,
+            effort => {
+                let all = robot.motors.iter().zip(&names).filter(is_shared);
+                let sum: Vec<String> = all.map(|(other, name)| law(other, name)).collect();
+                limited(sum.join(" + ").replace("+ -", "- "), effort)
+            }
+        };
         let _ = write!(text, "\n[loads.{name}]\nkind = \"{kind}\"\njoint = \"{joint}\"\n{key} = \"{law}\"\n");
     }
 }

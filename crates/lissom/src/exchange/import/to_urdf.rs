@@ -103,7 +103,7 @@ fn write_joint(text: &mut String, robot: &Robot, joint: &RobotJoint) {
         let range = joint.range.or((joint.freedom == Freedom::Displacement).then_some([-FAR, FAR]));
         if let Some([low, high]) = range {
             // Torque and rate are required; a model has no such limits.
-            let effort = joint.rating.effort.unwrap_or(NO_LIMIT);
+            let effort = joint.rating.effort.map_or(NO_LIMIT, |[_, high]| high);
             let speed = joint.rating.speed.unwrap_or(NO_LIMIT);
             let _ = writeln!(
                 text,

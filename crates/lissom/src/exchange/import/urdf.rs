@@ -409,7 +409,7 @@ fn moving(
     let limit = child(node, "limit").filter(|_| moves);
     let (mut range, mut rating) = (None, MotorRating::default());
     if let Some(limit) = limit {
-        rating.effort = number(limit, "effort")?;
+        rating.effort = number(limit, "effort")?.map(|effort| [-effort, effort]);
         rating.speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
         if kind == "planar" {
             notes.left_out.push(format!(

@@ -71,8 +71,7 @@ pub(super) fn joint(
         joint.axis = direction(element, "axis", element.numbers::<3>("axis")?.unwrap_or([0.0, 0.0, 1.0]))?;
         joint.reference = unit * element.number("ref", 0.0)?;
         joint.spring.rest = unit * element.number("springref", 0.0)?;
-        joint.rating.effort = limits(element, ("actuatorfrcrange", "actuatorfrclimited"), autolimits)?
-            .map(|[low, high]| low.abs().max(high.abs()));
+        joint.rating.effort = limits(element, ("actuatorfrcrange", "actuatorfrclimited"), autolimits)?;
     }
     if joint.freedom == Freedom::Floating && joint.spring.stiffness > 0.0 {
         return Err(

@@ -277,6 +277,11 @@ impl Reader {
             let read = joint::joint(element, settings, (joint_name.clone(), carrier, child, origin));
             let fixed = || RobotJoint::new(joint_name, Freedom::Fixed, carrier, child, origin);
             let joint = self.robot.keep(read).unwrap_or_else(fixed);
+            if joint.rating.effort.is_some() && element.flag("actuatorgravcomp", false)? {
+                self.robot
+                    .left_out
+                    .push(format!("the weight compensation of `{}` in the limits of its motors", joint.name));
+            }
             if joint.armature > 0.0 && !joint.moves() {
                 // Default classes give it to the free joint of a robot whose hinges are meant.
                 let (name, armature) = (&joint.name, joint.armature);

@@ -66,7 +66,8 @@ pub(super) fn set_total_mass(compiler: &Element, robot: &mut Robot) -> Result<()
 /// Reads all sections except bodies into `robot`.
 pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
     let handled = ["compiler", "default", "worldbody", "option", "tendon", "actuator"];
-    let (mut others, mut actuators) = (Vec::new(), 0);
+    let (mut others, mut actuators, mut without_force) = (Vec::new(), 0, 0);
+    let disabled = robot.keep(disabled_groups(root)).unwrap_or_else(|| Some(Vec::new()));
     for node in &root.children {
         match node.tag() {
             "option" => {
@@ -88,6 +89,7 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
             "actuator" => {
                 for own in &node.children {
                     match robot.keep(motor(own, actuators, robot)) {
+                        _ if is_disabled(own, disabled.as_ref()) => without_force += 1,
                         Some(Some(motor)) => robot.motors.push(motor),
                         _ => others.push(own.tag().to_owned()),
                     }
@@ -117,6 +119,9 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
     for node in root.within("tendon") {
         let read = tendon(node, sites, robot);
         robot.keep(read);
+    }
+    if without_force > 0 {
+        robot.left_out.push(format!("{without_force} actuators that the options disable"));
     }
     let all = counted(others.into_iter());
     if !all.is_empty() {
@@ -161,6 +166,24 @@ fn option(node: &Node, robot: &mut Robot) -> Result<(), ImportError> {
         robot.contacts.is_disabled |= is_off("contact");
     }
     Ok(())
+}
+
+/// Groups of actuators that the options disable; none for all groups.
+fn disabled_groups(root: &Node) -> Result<Option<Vec<f64>>, ImportError> {
+    let mut groups = Vec::new();
+    for node in root.of("option") {
+        if node.of("flag").any(|flag| flag.attribute("actuation") == Some("disable")) {
+            return Ok(None);
+        }
+        groups = node.element.list("actuatorgroupdisable")?.unwrap_or(groups);
+    }
+    Ok(Some(groups))
+}
+
+/// Whether an actuator exerts no force because of the options.
+fn is_disabled(actuator: &Node, disabled: Option<&Vec<f64>>) -> bool {
+    let group = actuator.attribute("group").and_then(|group| group.parse().ok()).unwrap_or(0.0);
+    disabled.is_none_or(|groups| groups.contains(&group))
 }
 
 /// An actuator on a joint, by its number; none for those with states, muscles, and those on other things.
@@ -208,9 +231,8 @@ fn motor(node: &Node, number: usize, robot: &Robot) -> Result<Option<Motor>, Imp
         let (middle, half) = (0.5 * (low + high), 0.5 * share[0] * (high - low));
         input = Some([middle - half, middle + half]).filter(|_| share[0] > 0.0).or(input);
     }
-    let effort = robot.joints[joint].rating.effort.map(|effort| [-effort, effort]);
     let force = limits("forcerange", "forcelimited")?;
-    Ok(Some(Motor { joint, number, gear, gain, bias, input, force, effort, start: 0.0 }))
+    Ok(Some(Motor { joint, number, gear, gain, bias, input, force, start: 0.0 }))
 }
 
 /// Joints that follow others become mimic joints; bodies that are connected close loops; other equalities are reported.
