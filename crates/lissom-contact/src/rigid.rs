@@ -3,11 +3,12 @@
 //! Legend, beside that of a [point](crate::point): λ multipliers, N = -λ normal force, f = -λ force on the tip; γ rate of return.
 //!
 //! ```text
-//! slides or is saturated:   n·u + γ g = 0
-//! sticks:                   u + γ g n = 0
+//! slides or is saturated:   n·u + γ (g - g₀) = 0
+//! sticks:                   u + γ (g - g₀) n = 0
 //! ```
 //!
-//! γ g removes the drift of the gap that integrating velocities leaves; it is zero up to the errors of the scheme. The impacts, and
+//! γ (g - g₀) removes the drift of the gap that integrating velocities leaves; it is zero up to the errors of the scheme. g₀ is the
+//! penetration as drawn, which is at most round-off: to press solids apart from there would supply energy. The impacts, and
 //! which of the modes applies, are computed by `Simulation`; friction while it slides is an element, `elements::rigid_friction`.
 
 use std::sync::Arc;
@@ -95,6 +96,8 @@ pub struct RigidState {
     pub mode: DiscreteValueId,
     /// Gap at which it touches, zero up to the errors of the scheme [m].
     pub offset: DiscreteValueId,
+    /// Gap at the start if the solids penetrate each other there, otherwise zero, g₀ [m].
+    pub drawn: DiscreteValueId,
     /// Largest normal force of all contacts that touched when its mode was determined [N].
     pub scale: DiscreteValueId,
     /// Direction against which friction acts, while it slides or is saturated; base's axes.
@@ -165,6 +168,11 @@ impl RigidContact {
     /// Gap at which it touches [m].
     pub fn offset(&self, at: &Kinematics) -> f64 {
         at.held.get(self.held.offset.index()).copied().unwrap_or(0.0)
+    }
+
+    /// The gap beyond that as drawn, g - g₀ [m].
+    fn drift(&self, at: &Kinematics, gap: f64) -> f64 {
+        gap - at.held.get(self.held.drawn.index()).copied().unwrap_or(0.0)
     }
 
     /// The direction against which friction acts, in the base's axes; within the tangent plane only where it was set.
@@ -424,7 +432,7 @@ impl Constraint for RigidConstraint {
         self.acting(at, |contact, touching| {
             if self.sticks {
                 let Gap { value, normal, normal_by, .. } = touching.gap;
-                let returning = normal * touching.gap_by() + value * normal_by;
+                let returning = normal * touching.gap_by() + contact.drift(at, value) * normal_by;
                 contact.add_rows(touching, &(touching.velocity_by_place() + RETURN_RATE * returning), out);
             } else {
                 let rows = touching.rate_by(&touching.velocity_by())[0] + RETURN_RATE * touching.gap_by();
@@ -434,12 +442,12 @@ impl Constraint for RigidConstraint {
     }
 
     fn time_derivative(&self, at: &Kinematics, out: &mut [f64]) {
-        self.acting(at, |_, touching| {
-            let gap = &touching.gap;
+        self.acting(at, |contact, touching| {
+            let returning = RETURN_RATE * contact.drift(at, touching.gap.value);
             if self.sticks {
-                out.copy_from_slice((RETURN_RATE * gap.value * gap.normal).as_slice());
+                out.copy_from_slice((returning * touching.gap.normal).as_slice());
             } else {
-                out[0] = RETURN_RATE * gap.value;
+                out[0] = returning;
             }
         });
     }

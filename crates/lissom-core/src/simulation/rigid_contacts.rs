@@ -520,6 +520,7 @@ impl Simulation {
                 let contact = Subject::new("contact", &contact.name);
                 return Err(InitialError::ContactPenetration { contact, depth: -gap });
             }
+            self.state.kinematics.held[contact.held.drawn.index()] = gap.min(0.0);
         }
         let before = self.state.kinematics.clone();
         let outcome = resolve(

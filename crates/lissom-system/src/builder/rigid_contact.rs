@@ -23,6 +23,7 @@ impl Builder {
         let held = RigidState {
             mode: held("mode"),
             offset: held("offset"),
+            drawn: held("gap as drawn"),
             scale: held("scale"),
             direction: ["direction 1", "direction 2", "direction 3"].map(&mut held),
         };
