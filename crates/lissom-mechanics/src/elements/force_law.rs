@@ -212,14 +212,20 @@ impl ForceLaw {
             _ if has_upper || has_lower => 0.0,
             _ => elongation - elongation.clamp(-self.play, self.play),
         };
+        // Beyond its end a continued law may have no value, as a root of the elongation: it has that of the end.
+        let is_continued = is_above && above < 0.0 || is_below && below > 0.0;
         let [elastic, damper] =
-            [(&self.elastic, past, rate), (&self.damper, rate, past)].map(|(law, one, other)| {
-                let Some(law) = law else { return [0.0; 3] };
-                let begin = next;
-                let own = sides.get(begin..begin + law.switch_count()).unwrap_or_default();
-                law.switches(one, other, own, &mut |switch| _ = passes(&mut next, switch));
-                law.continued(one, other, own)
-            });
+            [(&self.elastic, [past, rate], [0.0, rate]), (&self.damper, [rate, past], [rate, 0.0])].map(
+                |(law, [one, other], end)| {
+                    let Some(law) = law else { return [0.0; 3] };
+                    let begin = next;
+                    let own = sides.get(begin..begin + law.switch_count()).unwrap_or_default();
+                    law.switches(one, other, own, &mut |switch| _ = passes(&mut next, switch));
+                    let found = law.continued(one, other, own);
+                    let is_lost = is_continued && found.iter().any(|value| value.is_nan());
+                    if is_lost { law.continued(end[0], end[1], own) } else { found }
+                },
+            );
         let response = Response {
             force: self.stiffness * past + self.damping * rate + elastic[0] + damper[0],
             stiffness: self.stiffness + elastic[1] + damper[2],

@@ -352,3 +352,48 @@ fn a_preload_is_the_force_at_the_start() {
         assert!(problem.contains(words), "{problem}");
     }
 }
+
+/// A block meets a wall whose force is a power of the penetration, as a load with `max`, with `if` and as a spring on one side: the
+/// energy gives the depth, and it returns with the velocity it came with. Exponents between whole numbers have no value beyond the
+/// switch, where steps continue them by round-off.
+#[test]
+fn penetrations_to_a_power_rebound_elastically() {
+    let (mass, velocity, stiffness) = (2.0_f64, 0.5_f64, 3e4_f64);
+    for exponent in [1.2, 1.5, 2.0, 2.2, 3.0] {
+        let analysis = "end = 1\nrelative_tolerance = 1e-9";
+        let load = |force: &str| {
+            let load =
+                format!("[loads.wall]\nkind = \"joint_force\"\njoint = \"slide\"\nforce = \"{force}\"\n");
+            SLIDER
+                .replace("[springs.spring]\nSPRING\n", &load)
+                .replace("[outputs.spring]\nkind = \"spring\"\nof = \"spring\"\n", "")
+                .replace("ANALYSIS", analysis)
+        };
+        let models = [
+            load(&format!("-{stiffness}*max(0, slide.displacement - 0.1)^{exponent}")),
+            load(&format!(
+                "if(slide.displacement > 0.1, -{stiffness}*(slide.displacement - 0.1)^{exponent}, 0)"
+            )),
+            load(&format!("-{stiffness}*sqrt(max(0, slide.displacement - 0.1))^{}", 2.0 * exponent)),
+            slider(
+                &format!(
+                    "{AXIAL}displacement = 0.1\nside = \"tension\"\nforce = \"{stiffness}*elongation^{exponent}\""
+                ),
+                analysis,
+            ),
+        ];
+        let depth =
+            (0.5 * mass * velocity * velocity * (exponent + 1.0) / stiffness).powf(1.0 / (exponent + 1.0));
+        for text in models {
+            let record = session(&text).run().unwrap().into_record();
+            let place = record.column("slide", "displacement").unwrap();
+            let deepest = place.iter().copied().fold(0.0, f64::max) - 0.1;
+            assert!(
+                deepest <= depth * (1.0 + 1e-7) && deepest > 0.9 * depth,
+                "{exponent}: {deepest} of {depth}\n{text}"
+            );
+            let rate = record.column("slide", "velocity").unwrap().last().unwrap();
+            assert!((rate + velocity).abs() < 1e-6, "{exponent}: {rate}\n{text}");
+        }
+    }
+}

@@ -38,6 +38,25 @@ fn functions_are_continued_from_known_sides() {
     assert_eq!(switches, [-2.0, -3.0, 2.0].map(Switch::from));
 }
 
+/// Beyond the switch of `max` a root of its argument is continued as an odd function; elsewhere it is not a number.
+#[test]
+fn roots_are_continued_beyond_switches() {
+    for text in ["max(0, a)^1.5", "sqrt(max(0, a))^3", "if(a > 0, a^1.5, 7)"] {
+        let (formula, mut gradient) = (parse(text).unwrap(), [0.0]);
+        let above = if text.contains('>') { [1.0] } else { [-1.0] };
+        for a in [-1e-14, -0.25, 0.25] {
+            let value = formula.value(0.0, &[a], &above);
+            let wanted = f64::abs(a).powf(1.5).copysign(a);
+            assert!((value - wanted).abs() <= 1e-15 * wanted.abs(), "{text} at {a}: {value}");
+            formula.gradient(0.0, &[a], &above, &mut gradient);
+            let slope = 1.5 * f64::abs(a).sqrt();
+            assert!((gradient[0] - slope).abs() <= 1e-12 * slope, "{text} at {a}: {gradient:?}");
+        }
+    }
+    let negative = parse("max(0, a)*b^1.5").unwrap();
+    assert!(negative.value(0.0, &[1.0, -1.0], &[-1.0]).is_nan());
+}
+
 /// Functions of three numbers fill the stack with the fewest steps.
 #[test]
 fn deep_expressions_have_a_stack_that_is_large_enough() {
