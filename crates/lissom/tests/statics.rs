@@ -292,3 +292,55 @@ kind = "statics"
     let words = format!("{report:?}");
     assert!(words.contains("it has no resistance") && !words.contains("wheel"), "{words}");
 }
+
+/// Drives that move an arm without load do work of round-off alone, which is no jump.
+#[test]
+fn the_kinematics_of_an_arm_without_loads_has_no_warning() {
+    let arm = r#"
+lissom = 1
+[bodies.upper]
+mass = 2
+inertia = [0.01, 0.03, 0.03]
+position = [0.2, 0, 0]
+[bodies.lower]
+mass = 1
+inertia = [0.005, 0.01, 0.01]
+position = [0.4, 0.15, 0]
+[joints.shoulder]
+kind = "revolute"
+base = "ground"
+tip = "upper"
+at = [0, 0, 0]
+axis = [0, 0, 1]
+[joints.elbow]
+kind = "revolute"
+base = "upper"
+tip = "lower"
+at = [0.4, 0, 0]
+axis = [0, 0, 1]
+[joints.hand]
+kind = "prescribed_motion"
+base = "ground"
+tip = "lower"
+at = [0.4, 0.3, 0]
+x = "0.05*t"
+y = "0.1*t"
+free = ["z", "rx", "ry", "rz"]
+[outputs.shoulder]
+kind = "relative"
+of = "shoulder"
+[analysis]
+kind = "statics"
+ramp = false
+"#;
+    for steps in ["steps = 50", "relative_tolerance = 1e-6"] {
+        let (record, session) = record(&format!("{arm}{steps}\n"));
+        // The law of cosines.
+        let reach = 0.45_f64.hypot(0.4);
+        let angle = 0.4_f64.atan2(0.45) - ((0.16 + reach * reach - 0.09) / (0.8 * reach)).acos();
+        let found = record.column("shoulder", "angle").unwrap().last().unwrap();
+        assert!((found - angle).abs() < 1e-9, "{steps}: {found} {angle}");
+        let warnings: Vec<_> = session.warnings().map(ToString::to_string).collect();
+        assert!(warnings.is_empty(), "{steps}: {warnings:?}");
+    }
+}

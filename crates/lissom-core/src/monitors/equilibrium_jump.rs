@@ -13,11 +13,16 @@ const RELEASED: f64 = 4.0;
 struct EquilibriumJump {
     /// Energy that the first load step releases because its start is not in equilibrium [J].
     released: f64,
+    /// Energy that is round-off where nothing resists the motion of drives [J].
+    negligible: f64,
     is_first: bool,
 }
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
-    let jump = EquilibriumJump { released: beginning.released, is_first: true };
+    let own = beginning.representative;
+    // Loads and drives have their final values after a time of one.
+    let negligible = f64::EPSILON * (own.stiffness + own.mass) * own.length * own.length;
+    let jump = EquilibriumJump { released: beginning.released, negligible, is_first: true };
     (!beginning.problem.settings.scheme.dynamic).then(|| Box::new(jump) as Box<dyn Monitor>)
 }
 
@@ -32,9 +37,9 @@ impl Monitor for EquilibriumJump {
         let is_relaxation =
             |warning: &Warning| matches!(warning, Warning::Relaxed { time: at, .. } if *at == time);
         let missing = after.missing_work(before);
-        if missing > JUMP && !is_release && !warnings.iter().any(is_relaxation) {
-            let work = after.loads + after.drives - before.loads - before.drives;
-            warn(warnings, Warning::Jump { start, time, work: missing * work.abs() });
+        let work = missing * (after.loads + after.drives - before.loads - before.drives).abs();
+        if missing > JUMP && work > self.negligible && !is_release && !warnings.iter().any(is_relaxation) {
+            warn(warnings, Warning::Jump { start, time, work });
         }
     }
 
