@@ -409,6 +409,11 @@ pub(crate) const SMOOTHER: &str = "smooth it (`tanh(v/0.01)` instead of `sign(v)
 pub(crate) const FOR_MANY_TOUCHES: &str = "parts touch at several points: try `scheme = \"backward-euler\"` with a `step`, which solves \
      for all touches at once";
 
+/// What to try where the first load step fails in which a drive moves.
+pub(crate) const LOADS_BEFORE_DRIVES: &str = "a drive moves in the first load step, before the loads have determined the shape: let it begin \
+     later, such as at t = 0.1 by `max(0, t - 0.1)`, so that an equilibrium under loads alone is found first; if there is one already, the load \
+     may be at a limit point (snap-through or buckling), beyond which `kind = \"path\"` can follow it";
+
 /// What to try when numbers of one attempt are not finite.
 pub(crate) const SMALLER: &str = "try a smaller step";
 /// What to try when a step has no solution even in the smallest parts.

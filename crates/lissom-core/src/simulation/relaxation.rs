@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use crate::errors::StepError;
 use crate::errors::Warning;
+use crate::errors::step_error::LOADS_BEFORE_DRIVES;
 use crate::errors::warn;
 use crate::kinematics::Kinematics;
 use crate::newton::JacobianState;
@@ -131,7 +132,15 @@ impl Simulation {
         let mut iterations = 0;
         let found = relax(&self.system, &self.state, &self.settings, time, &mut iterations);
         self.totals.newton_iterations += iterations;
-        let Some((reached, doubts)) = found else { return Err(error.clone()) };
+        let Some((reached, doubts)) = found else {
+            let mut error = error.clone();
+            if let StepError::NotConverged { hint, .. } = &mut error
+                && !self.system.drives().is_empty()
+            {
+                *hint = LOADS_BEFORE_DRIVES;
+            }
+            return Err(error);
+        };
         let problem = Problem { system: &self.system, settings: &self.settings };
         self.integrator.resize(problem, size);
         self.integrator.jacobian_state = JacobianState::default();

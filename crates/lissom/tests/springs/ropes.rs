@@ -1,5 +1,7 @@
 //! Ropes over pulleys against formulas: tackles, hoists, drums, and ropes that go slack.
 
+use lissom::Model;
+
 use crate::support::on_one_line::refused_on_one_line;
 use crate::support::runs::{column, run};
 
@@ -477,4 +479,29 @@ fn a_mass_hangs_on_ropes_without_tension_as_drawn() {
             column(&record, "rope", "force").last().unwrap() - mass * 9.81 * low.hypot(1.0) / (3.0 * low);
         assert!(tension.abs() < 1e-5, "{length}: {tension}");
     }
+}
+
+/// A heavy line whose end is drawn in while its weight grows has no equilibrium nearby: the remedy, to draw it in after the weight, finds
+/// the one of the elastic catenary, H = 33,810.65 N with a sag of 26.5504 m.
+#[test]
+fn a_line_that_is_drawn_in_hangs_first() {
+    let line = |x: &str| {
+        format!(
+            "lissom = 1\ngravity = [0, 0, -9.81]\n[sections.c]\nshape = \"general\"\nstiffness = [5e8, 1.6667e8, 1.6667e8, 10, 10, 10]\n\
+             mass = [101.9367991845056, 101.9367991845056, 101.9367991845056, 1, 0.5, 0.5]\n\
+             [beams.c]\nsection = \"c\"\nfrom = [0, 0, 0]\nto = [100, 0, 0]\nelements = 24\n\
+             [joints.a]\nkind = \"spherical\"\nbase = \"ground\"\ntip = \"c.start\"\n\
+             [joints.b]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"c.end\"\nx = \"{x}\"\nfree = [\"ry\", \"rz\"]\n\
+             [outputs.a]\nkind = \"reaction\"\nof = \"a\"\n[outputs.middle]\nkind = \"position\"\nof = \"c@0.5\"\n\
+             [analysis]\nkind = \"statics\"\n"
+        )
+    };
+    let mut session = Model::from_text("line.toml", &line("-20*t")).session().unwrap();
+    let error = session.run().err().expect("no equilibrium").to_string();
+    assert!(error.contains("max(0, t - 0.1)"), "{error}");
+    let record = run(&line("-20*max(0, t - 0.1)/0.9"), &[]);
+    let force = column(&record, "a", "f1").last().unwrap();
+    assert!((force + 33_810.65).abs() < 0.1, "{force}");
+    let sag = column(&record, "middle", "z").last().unwrap();
+    assert!((sag + 26.5504).abs() < 1e-3, "{sag}");
 }
