@@ -367,7 +367,7 @@ fn samples_of_kinds_are_good_models() {
         [joints.my_wall]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"my_beam.start\"\n\
         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
     let folder = Folder::new("samples");
-    let run = lissom(&["kinds"], folder.path());
+    let run = lissom(&["kinds", "all"], folder.path());
     let mut samples: Vec<String> = Vec::new();
     let mut inside = false;
     for line in run.output.lines() {

@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::Args;
 use lissom::catalogue;
 use lissom::core::diagnostics::Entry;
+use lissom::model::meant;
 use serde_json::Value;
 
 use super::outcome::{Exit, Failure};
@@ -53,8 +54,13 @@ impl Explain {
         };
         if found.is_empty() {
             let codes: Vec<&str> = catalogue().map(|entry| entry.code).collect();
-            let message = format!("no entry contains `{words}`; codes are {}", codes.join(", "));
-            return Err(Failure::request(format!("{message}; `lissom explain` prints all entries")));
+            if let Some(code) = meant(&words, &codes).first() {
+                return Err(Failure::request(format!("there is no code `{words}`; did you mean `{code}`?")));
+            }
+            return Err(Failure::request(format!(
+                "no warning or failure contains `{words}`; `lissom explain` prints all, and `lissom kinds {words}` explains the words of \
+                 model files"
+            )));
         }
         terminal::print(&found.into_iter().map(render).collect::<String>());
         Ok(Exit::Done)

@@ -18,14 +18,16 @@ use super::terminal;
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  lissom kinds                    everything
+  lissom kinds                    the names of all kinds, by table
+  lissom kinds all                everything
   lissom kinds outputs            the kinds of a table with their keys; also joints, sections, analysis …
   lissom kinds reaction           one kind of joint, spring, load, section, output or analysis, or a scheme
   lissom kinds damping            all tables with a key of this name
   lissom kinds smoothstep         functions of expressions
+  lissom kinds conveyor           kinds and keys whose explanations contain a word that is no name
   lissom kinds --json             kinds, schemes and solvers for programs")]
 pub(super) struct Kinds {
-    /// Show only kinds and schemes whose names contain this word, and tables, keys, words and functions of this name.
+    /// Show kinds and schemes whose names contain this word, and tables, keys, words and functions of this name; `all` for everything.
     name: Option<String>,
 
     /// Print kinds, schemes and solvers with their parameters as one JSON object.
@@ -35,6 +37,8 @@ pub(super) struct Kinds {
 
 /// Column of the explanations in lists of kinds.
 const COLUMN: usize = 26;
+/// Length of lines of names.
+const WIDTH: usize = 110;
 
 impl Kinds {
     pub(super) fn run(self) -> Result<Exit, Failure> {
@@ -46,11 +50,11 @@ impl Kinds {
         }
         let mut text = String::new();
         if wanted.is_empty() {
+            catalogue.index(&mut text);
+        } else if wanted == "all" {
             catalogue.kinds(&mut text, "");
             catalogue.choices(&mut text, "");
-            let words: Vec<&str> = topics();
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "\nSee also `lissom kinds WORD` for: {}", words.join(", "));
+            text.push_str(&see_also());
         } else {
             catalogue.table(&mut text, &wanted);
             catalogue.kinds(&mut text, &wanted);
@@ -60,6 +64,9 @@ impl Kinds {
                 let words = topic(&registry, "function").into_iter();
                 section(&mut text, "Functions of expressions\n", words);
             }
+        }
+        if text.is_empty() {
+            catalogue.mentions(&mut text, &wanted);
         }
         if text.is_empty() {
             return Err(catalogue.nothing(&wanted));
@@ -102,6 +109,43 @@ impl Catalogue<'_> {
             ("scheme", &self.registry.schemes, DEFAULT_SCHEMES),
             ("solver", &self.registry.solvers, "the first is the default"),
         ]
+    }
+
+    /// The names of all kinds, by table.
+    fn index(&self, text: &mut String) {
+        for forms in self.forms.chunk_by(|a, b| a.heading == b.heading) {
+            let Some(tag) = forms[0].tag else { continue };
+            let names = forms.iter().map(|form| form.word);
+            section(text, &format!("{}  {tag} = \"…\"", forms[0].heading), names_of(names));
+        }
+        for (word, choices, _) in self.schemes_and_solvers() {
+            let names = choices.iter().map(|choice| choice.name);
+            section(text, &format!("[analysis]  {word} = \"…\""), names_of(names));
+        }
+        section(text, "Functions of expressions", names_of(function_names()));
+        text.push_str(&see_also());
+    }
+
+    /// Kinds and keys whose explanations contain `wanted`, unless it is another word for one of them.
+    fn mentions(&self, text: &mut String, wanted: &str) {
+        if !self.meant(wanted).is_empty() {
+            return;
+        }
+        let words = wanted.replace('_', " ");
+        let has = |summary: &str| summary.to_lowercase().contains(&words);
+        let mut found = BTreeMap::new();
+        for form in &self.forms {
+            let summary = [form.about.as_str(), form.summary].into_iter().find(|summary| has(summary));
+            if let Some(summary) = summary {
+                found.entry((&form.heading, form.word, "")).or_insert(summary.to_owned());
+            }
+            for key in form.keys.iter().filter(|key| has(&key.summary)) {
+                found.insert((&form.heading, form.word, key.name), of_key(key));
+            }
+        }
+        let list =
+            found.iter().map(|((heading, word, _), words)| format!("  {heading} {word}\n    {words}\n"));
+        section(text, &format!("Nothing is called `{wanted}`. Explanations that contain it\n"), list);
     }
 
     /// Kinds whose names contain `wanted`, by table.
@@ -171,8 +215,8 @@ impl Catalogue<'_> {
         section(text, &format!("Keys and values `{wanted}`"), list);
     }
 
-    /// The failure to find anything, with the nearest word.
-    fn nothing(&self, wanted: &str) -> Failure {
+    /// Names that `wanted` is another word for, or a slip of the pen.
+    fn meant(&self, wanted: &str) -> Vec<String> {
         let forms = || self.forms.iter();
         let mut known: Vec<&str> = forms().map(|form| form.word).filter(|word| !word.is_empty()).collect();
         known.extend(forms().flat_map(|form| [form.table, form.singular]));
@@ -181,8 +225,12 @@ impl Catalogue<'_> {
         );
         known.extend(forms().flat_map(|form| form.keys.iter().map(|key| key.name)));
         known.extend(function_names());
-        let found: Vec<String> =
-            meant(wanted, &known).iter().map(|word| format!("`lissom kinds {word}`")).collect();
+        meant(wanted, &known).iter().map(|word| format!("`lissom kinds {word}`")).collect()
+    }
+
+    /// The failure to find anything, with the nearest word.
+    fn nothing(&self, wanted: &str) -> Failure {
+        let found = self.meant(wanted);
         let remedy = if found.is_empty() {
             format!("see `lissom kinds`, or `lissom kinds` with one of {}", topics().join(", "))
         } else {
@@ -236,6 +284,23 @@ impl Catalogue<'_> {
         terminal::print(&format!("{all:#}\n"));
         Ok(Exit::Done)
     }
+}
+
+/// Names in lines of moderate length.
+fn names_of<'a>(names: impl Iterator<Item = &'a str>) -> impl Iterator<Item = String> {
+    let mut lines: Vec<String> = Vec::new();
+    for name in names {
+        match lines.last_mut() {
+            Some(line) if line.len() + name.len() < WIDTH => line.extend([", ", name]),
+            _ => lines.push(format!("  {name}")),
+        }
+    }
+    lines.into_iter().map(|line| line + "\n")
+}
+
+/// Where more is explained.
+fn see_also() -> String {
+    format!("\nSee also `lissom kinds WORD` for a name or: {}\n", topics().join(", "))
 }
 
 fn section(text: &mut String, heading: &str, entries: impl Iterator<Item = String>) {

@@ -294,7 +294,15 @@ fn kinds_answer_for_tables_and_functions() {
     let ended = lissom(&["kinds", "nonsense"], folder.path());
     assert!(ended.code == 2 && ended.errors.contains("section"), "{}", ended.errors);
     let all = lissom(&["kinds"], folder.path()).output;
-    assert!(all.contains("See also `lissom kinds WORD`") && all.contains("output"), "{all}");
+    assert!(
+        all.contains("See also `lissom kinds WORD`") && all.contains("  cam, clamp, constant_velocity"),
+        "{all}"
+    );
+    assert!(all.lines().count() < 80, "{all}");
+    let ended = lissom(&["kinds", "conveyor"], folder.path());
+    assert!(ended.code == 0 && ended.output.contains("surface_velocity"), "{}{}", ended.output, ended.errors);
+    let ended = lissom(&["explain", "conveyor"], folder.path());
+    assert!(ended.code == 2 && ended.errors.len() < 300, "{}", ended.errors);
     let schema: Value = serde_json::from_str(&lissom(&["schema"], folder.path()).output).unwrap();
     assert_eq!(schema["properties"]["initial"]["additionalProperties"]["required"][0], "parts");
 }
