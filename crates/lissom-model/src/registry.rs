@@ -49,3 +49,12 @@ pub struct Registry {
     /// Words for `analysis.solver`; the first is the default.
     pub solvers: Vec<ChoiceEntry>,
 }
+
+impl Registry {
+    /// The table that has entries of this kind.
+    pub(crate) fn table_of(&self, kind: &str) -> Option<&'static str> {
+        let tables = [("joints", &self.joints), ("springs", &self.springs), ("loads", &self.loads)];
+        let has_it = |(_, kinds): &(&str, &Vec<KindEntry>)| kinds.iter().any(|entry| entry.name == kind);
+        tables.into_iter().find(has_it).map(|(table, _)| table)
+    }
+}

@@ -160,6 +160,7 @@ pub(crate) fn rates(
     // Drives first: they are what contradicts, the joints between them only carry it.
     let is_drive = |k: &usize| system.drives().iter().any(|drive| drive.multiplier == *k);
     let mut violated: Vec<Subject> = Vec::new();
+    let mut drives_in_conflict = 0;
     for (wants_drives, share) in [(true, DRIVES_IN_CONFLICT), (false, 0.1)] {
         let most = violated.len() + super::MAX_LISTED;
         for k in (0..rates.len()).filter(|k| is_drive(k) == wants_drives && relative(*k) > share * worst) {
@@ -167,11 +168,17 @@ pub(crate) fn rates(
             let name = Subject::new("joint", joint).called(format!("`{joint}` ({equation})"));
             if violated.len() < most && !violated.contains(&name) {
                 violated.push(name);
+                drives_in_conflict += usize::from(wants_drives);
             }
         }
     }
     let [cause, remedy] = if system.drives().is_empty() {
         ["because the joints exclude each other's motion", "remove one, or look at their axes"]
+    } else if drives_in_conflict < 2 {
+        [
+            "because the joints exclude the prescribed motion",
+            "look at the axes of these joints, or change the prescribed motion",
+        ]
     } else {
         [
             "because two drives prescribe the same motion differently, or one prescribes what the joints exclude",

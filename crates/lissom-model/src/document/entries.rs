@@ -54,7 +54,7 @@ where
     for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));
         all.extend(
-            of_form(context, &forms, (node, words, span))
+            of_form(context, (&forms, registry), (node, words, span))
                 .and_then(|(reader, word)| read(&reader, name, word)),
         );
     }
@@ -68,16 +68,22 @@ pub(super) fn of_kind<'c, 'a>(
     (node, words, span): (&'c Node, String, Span),
     registry: &Registry,
 ) -> Option<(Reader<'c, 'a>, &'static str)> {
-    of_form(context, &(context.forms)(table, registry), (node, words, span))
+    of_form(context, (&(context.forms)(table, registry), registry), (node, words, span))
 }
 
 /// Opens a table that has one of `forms`.
 fn of_form<'c, 'a>(
     context: &'c Context<'a>,
-    forms: &Variants,
+    (forms, registry): (&Variants, &Registry),
     (node, words, span): (&'c Node, String, Span),
 ) -> Option<(Reader<'c, 'a>, &'static str)> {
-    let chosen = crate::reading::reader::tag(context, node, forms.tag?, &forms.words(), (&words, span))?;
+    let chosen = crate::reading::reader::tag(
+        context,
+        node,
+        forms.tag?,
+        (&forms.words(), |word| registry.table_of(word)),
+        (&words, span),
+    )?;
     let form = forms.all.iter().find(|form| form.word == chosen.value)?;
     let reader = Reader::open(context, node, (words, span), form.keys.clone())?;
     Some((reader, form.word))

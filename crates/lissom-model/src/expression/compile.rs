@@ -218,7 +218,14 @@ impl<'t> Reader<'t, '_, '_> {
         }
         let known = self.variable.into_iter().chain(["pi"]).chain(self.parameters.keys().map(String::as_str));
         let unit = synonyms::instead_of_unit(name).map(str::to_owned);
-        let help = unit.or_else(|| suggest::help(name, known));
+        let is_of_time = self.variable == Some("t");
+        let of_time = |help: String| match help.strip_prefix("known here") {
+            Some(_) if is_of_time => format!(
+                "{help}; this depends on time alone: what follows states, inputs or motions is a load, such as `joint_torque`"
+            ),
+            _ => help,
+        };
+        let help = unit.or_else(|| suggest::help(name, known).map(of_time));
         Err(ExpressionError { message: format!("unknown name `{name}`"), help, range })
     }
 

@@ -102,6 +102,21 @@ pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
         "gravity" | "weight" if is_known("joint_torque") => {
             Some("weight is no load: write `gravity = [0, 0, -9.81]` at the top of the file".to_owned())
         }
+        "equilibrium" | "steady_rotation" if is_known("scheme") => Some("it is a key of `[initial]`".to_owned()),
+        "connect" | "connects" | "between" | "nodes" if is_known("base") && is_known("tip") => {
+            Some("write its two ends as `base` and `tip`".to_owned())
+        }
+        "drives" | "drive" | "motors" | "motor" | "actuators" if is_known("lissom") => Some(
+            "a prescribed motion is an entry of `[joints]` with `kind = \"prescribed_rotation\"` and the `joint` that it moves; a torque or \
+             a force is one of `[loads]`, such as `kind = \"joint_torque\"`"
+                .to_owned(),
+        ),
+        "capsule" if is_known("sides") => {
+            Some("write `kind = \"capsule\"`, with a `radius` and a `length`".to_owned())
+        }
+        "t" | "time" if is_known("pi") && !is_known("t") => Some(
+            "this number is constant: what changes with time is another key, such as `scale` of a load".to_owned(),
+        ),
         "units" | "unit" if is_known("lissom") => Some(
             "units cannot be specified: remove it, and write lengths in m, masses in kg, times in s, forces in N and angles \
              in rad"

@@ -35,7 +35,7 @@ pub(crate) fn tag<'n>(
     context: &Context<'_>,
     node: &'n Node,
     key: &str,
-    known: &[&str],
+    (known, elsewhere): (&[&str], impl Fn(&str) -> Option<&'static str>),
     (what, name): (&str, Span),
 ) -> Option<Located<&'n str>> {
     let Value::Table(table) = &node.value else {
@@ -53,7 +53,8 @@ pub(crate) fn tag<'n>(
         return Some(Located::new(word.as_str(), value.span));
     }
     let problem = Problem::error(value.span, format!("{what} has an unknown {key} `{word}`"));
-    context.report(problem.maybe_help(suggest::help(word, known.iter().copied())));
+    let elsewhere = elsewhere(word).map(|table| format!("it is a kind of `[{table}]`"));
+    context.report(problem.maybe_help(elsewhere.or_else(|| suggest::help(word, known.iter().copied()))));
     None
 }
 

@@ -117,7 +117,7 @@ pub(super) fn of(
     };
     let word = if table.contains_key("kind") {
         let words: Vec<&str> = KINDS.iter().map(|kind| kind.word).collect();
-        tag(context, node, "kind", &words, (what, name))?.value
+        tag(context, node, "kind", (&words, |_| None), (what, name))?.value
     } else {
         inferred(context, table, (what, name))?
     };
