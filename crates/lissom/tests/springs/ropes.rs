@@ -497,7 +497,7 @@ fn a_line_that_is_drawn_in_hangs_first() {
         )
     };
     let mut session = Model::from_text("line.toml", &line("-20*t")).session().unwrap();
-    let error = session.run().err().expect("no equilibrium").to_string();
+    let error = session.run().expect_err("no equilibrium").to_string();
     assert!(error.contains("max(0, t - 0.1)"), "{error}");
     let record = run(&line("-20*max(0, t - 0.1)/0.9"), &[]);
     let force = column(&record, "a", "f1").last().unwrap();
