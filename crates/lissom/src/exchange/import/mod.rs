@@ -12,6 +12,7 @@ mod massless;
 mod mjcf;
 mod model_text;
 mod motors;
+mod order;
 mod start;
 mod to_urdf;
 mod urdf;
@@ -101,6 +102,15 @@ impl Robot {
     /// Whether nothing moves unless the root does: a thing and no machine.
     pub fn is_object(&self) -> bool {
         self.may_float() && self.joints.iter().all(|joint| joint.freedom == Freedom::Fixed)
+    }
+
+    /// Indices of joints by name; of several of one name, the first.
+    fn joint_index(&self) -> BTreeMap<&str, usize> {
+        let mut index = BTreeMap::new();
+        for (own, joint) in self.joints.iter().enumerate() {
+            index.entry(joint.name.as_str()).or_insert(own);
+        }
+        index
     }
 
     /// The value of a reading; none, and an obstacle, if it failed.

@@ -169,13 +169,14 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
             write_closure(&mut text, name, closure, &at, [base, tip]);
         }
     }
+    let index = robot.joint_index();
     for (joint, place) in robot.joints.iter().zip(&placed) {
         write_resistance(&mut text, joint, place, options);
         write_armature(&mut text, joint, place);
         if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic)
-            && let Some(leader) = robot.joints.iter().position(|own| own.name == *leader)
+            && let Some(leader) = index.get(leader.as_str())
         {
-            write_follower(&mut text, place, &placed[leader], *factor);
+            write_follower(&mut text, place, &placed[*leader], *factor);
         }
     }
     if options.motors == Motors::Written {
@@ -278,11 +279,8 @@ fn wrong_masses(
         });
         if moments.min() <= 0.0 {
             // The link that has the mass may be one that is fixed to the body.
-            let own = (0..robot.links.len()).find(|&link| {
-                number[link] == number[group.link]
-                    && robot.links[link].inertia.is_some_and(|own| own.mass > 0.0)
-            });
-            let link = &robot.links[own.unwrap_or(group.link)];
+            let has_mass = |link: &&usize| robot.links[**link].inertia.is_some_and(|own| own.mass > 0.0);
+            let link = &robot.links[*group.links.iter().find(has_mass).unwrap_or(&group.link)];
             obstacles.push(format!(
                 "{}link `{}` has the mass {:?} kg, but principal moments of inertia that are not positive, {}: \
                  correct its inertia, for example 2/5 m r² for a ball",
@@ -297,9 +295,10 @@ fn wrong_masses(
     if moving().all(Group::has_mass) || !robot.closures.is_empty() {
         return obstacles;
     }
-    let bodies: Vec<usize> = moving().filter(|group| group.has_mass()).map(|group| group.link).collect();
+    let stops: Vec<bool> =
+        number.iter().map(|group| groups[*group].has_mass() || groups[*group].name == "ground").collect();
     let mut alone = BTreeSet::new();
-    for massless in without_mass(robot, frames, &bodies, options.mimic) {
+    for massless in without_mass(robot, frames, &stops, options.mimic) {
         match massless {
             Massless::Alone(index) if alone.insert(index) => {
                 let (joint, link) = (&robot.joints[index], &robot.links[robot.joints[index].child]);
@@ -354,7 +353,9 @@ fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
     let mut obstacles = Vec::new();
     if robot.is_root_the_world && options.root == Root::Floating {
         obstacles.push(
-            "the root of this description is the world, which cannot move: free bodies must have a <freejoint/>".to_owned(),
+            "the root of this description is the world, which cannot move: bodies that move freely must be free in the \
+             description"
+                .to_owned(),
         );
     }
     if options.unsupported == Unsupported::Refused {

@@ -1,5 +1,6 @@
 //! Motors of a robot: an input for each, and the torque or the force that it exerts.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use lissom_core::number::Written;
@@ -107,10 +108,10 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
         return;
     }
     text.push_str("\n# Motors: an input keeps its value until a program or an event sets it.\n[inputs]\n");
-    let mut names: Vec<String> = Vec::new();
+    let (mut names, mut taken) = (Vec::new(), BTreeSet::new());
     for motor in &robot.motors {
         let mut name = format!("{}_motor", placed[motor.joint].own);
-        while names.contains(&name) {
+        while !taken.insert(name.clone()) {
             name.push('_');
         }
         // Writing to a string cannot fail.
