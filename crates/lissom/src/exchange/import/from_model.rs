@@ -43,6 +43,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         compensations: Vec::new(),
         keyframes: Vec::new(),
         motors: Vec::new(),
+        sensors: Vec::new(),
         obstacles: Vec::new(),
         unsupported: Vec::new(),
     };

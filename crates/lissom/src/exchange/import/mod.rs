@@ -13,6 +13,7 @@ mod mjcf;
 mod model_text;
 mod motors;
 mod order;
+mod sensors;
 mod start;
 mod to_urdf;
 mod urdf;
@@ -31,6 +32,7 @@ pub use keyframes::Keyframe;
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text, omissions};
 pub use motors::{Motor, Motors};
+pub use sensors::{Measured, MotionKind, Sensor};
 pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
@@ -77,6 +79,8 @@ pub struct Robot {
     pub keyframes: Vec<Keyframe>,
     /// Motors, which are omitted unless they are requested.
     pub motors: Vec<Motor>,
+    /// Sensors, which become outputs.
+    pub sensors: Vec<Sensor>,
     /// Contents of the description that are omitted from the model, one sentence each.
     pub left_out: Vec<String>,
     /// Elements that act on the robot and cannot be modelled, one sentence each: rejected unless their omission is

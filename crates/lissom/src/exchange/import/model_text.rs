@@ -18,6 +18,7 @@ use super::joint_text::{
 };
 use super::massless::{Massless, without_mass};
 use super::motors::{Motors, write_motors};
+use super::sensors::{Mount, write_sensors};
 use super::start::{Start, prefix};
 use super::{Closure, Freedom, ImportError, LinkInertia, Pose, Robot, list};
 
@@ -186,7 +187,14 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     write_ropes(&mut text, robot, &frames, &group_name);
     write_compensations(&mut text, robot, &frames, &groups, &number);
     text.push_str(&contacts.text);
-    text.push_str(&footer(robot, &placed, &contacts));
+    text.push_str(&outputs(robot, &placed));
+    write_sensors(&mut text, robot, &placed, |link, frame| {
+        let group = &groups[number[link]];
+        // The ground has the global axes, wherever the root is.
+        let pose = if group.name == "ground" { Motion::identity() } else { group.frame };
+        Mount { body: &group.name, pose, sensor: frames[link] * *frame }
+    });
+    text.push_str(&analysis(robot, &contacts));
     Ok(text)
 }
 
@@ -468,7 +476,7 @@ impl Names {
 }
 
 /// A name that can be used in expressions: letters, digits and underscores.
-fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+pub(super) fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let mut free: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
     if !free.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -508,12 +516,17 @@ fn header(robot: &Robot, options: Options, start: &Start, contacts: &Contacts) -
     text
 }
 
-fn footer(robot: &Robot, placed: &[Placed], contacts: &Contacts) -> String {
+/// Outputs of all joints, and of the energy.
+fn outputs(robot: &Robot, placed: &[Placed]) -> String {
     let mut text = String::new();
     for place in robot.joints.iter().zip(placed).filter(|(joint, _)| joint.moves()).map(|(_, place)| place) {
         let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.own);
     }
-    text.push_str("\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\n");
+    text + "\n[outputs.energy]\nkind = \"energy\"\n"
+}
+
+fn analysis(robot: &Robot, contacts: &Contacts) -> String {
+    let mut text = "\n[analysis]\nkind = \"dynamics\"\n".to_owned();
     if contacts.are_there() {
         let _ = write!(text, "scheme = \"backward-euler\"\nstep = {:?}\n", robot.contact_step());
     }

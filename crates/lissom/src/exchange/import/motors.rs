@@ -120,11 +120,11 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
     }
     for (motor, name) in robot.motors.iter().zip(&names) {
         let joint = &placed[motor.joint].own;
-        let (kind, key, coordinate) = match robot.joints[motor.joint].freedom {
-            Freedom::Rotation => ("joint_torque", "torque", "angle"),
-            _ => ("joint_force", "force", "displacement"),
+        let (kind, key, coordinate, rate) = match robot.joints[motor.joint].freedom {
+            Freedom::Rotation => ("joint_torque", "torque", "angle", "rate"),
+            _ => ("joint_force", "force", "displacement", "velocity"),
         };
-        let law = motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.rate"));
+        let law = motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.{rate}"));
         let _ = write!(text, "\n[loads.{name}]\nkind = \"{kind}\"\njoint = \"{joint}\"\n{key} = \"{law}\"\n");
     }
 }

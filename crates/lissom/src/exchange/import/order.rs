@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Freedom, ImportError, JointSpring, MotorRating, Robot, RobotJoint};
+use super::{Freedom, ImportError, JointSpring, Measured, MotorRating, Robot, RobotJoint};
 
 impl Robot {
     /// Moves the root to the front and joints after their parent joints. All that refers to links or joints by their index refers to
@@ -65,6 +65,12 @@ impl Robot {
         self.compensations.iter_mut().for_each(|own| link(&mut own.link));
         self.tendons.iter_mut().flat_map(|own| &mut own.terms).for_each(|(own, _)| joint(own));
         self.motors.iter_mut().for_each(|own| joint(&mut own.joint));
+        for sensor in &mut self.sensors {
+            match &mut sensor.quantity {
+                Measured::Coordinate(own) | Measured::Rate(own) => joint(own),
+                Measured::Motion { link: own, .. } => link(own),
+            }
+        }
         Ok(self)
     }
 

@@ -68,6 +68,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         compensations: Vec::new(),
         keyframes: Vec::new(),
         motors: Vec::new(),
+        sensors: Vec::new(),
         left_out,
         unsupported: Vec::new(),
         obstacles,
