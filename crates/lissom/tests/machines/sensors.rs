@@ -26,6 +26,9 @@ fn inertial_sensors_have_their_own_axes() {
         <sensor><gyro name='g' site='s'/><velocimeter name='v' site='s'/><accelerometer name='a' site='s'/><accelerometer name='still' site='w'/>
         <jointpos name='angle' joint='j'/><jointvel joint='j'/><touch site='s'/><framepos objtype='geom' objname='x'/>
         <gyro site='s' cutoff='1'/></sensor></mujoco>";
+    let sdf = "<sdf version='1.9'><world name='w'><gravity>1 0 -9.81</gravity><model name='m'><link name='b'><inertial><mass>1</mass></inertial>
+        <sensor name='s' type='imu'><pose>0.4 0.1 0.2 0.3 -0.5 0.7</pose></sensor></link><joint name='j' type='continuous'><parent>world</parent>
+        <child>b</child><axis/></joint></model></world></sdf>";
     for rate in [0.0, 2.0] {
         let (turning, at) = (Vector3::new(0.0, 0.0, rate), Vector3::new(0.4, 0.1, 0.2));
         let gravity = Vector3::new(1.0, 0.0, -9.81);
@@ -35,7 +38,7 @@ fn inertial_sensors_have_their_own_axes() {
             sensed(turning.cross(&at)),
             sensed(turning.cross(&turning.cross(&at)) - gravity),
         ];
-        for (text, names) in [(mjcf, ["g", "v", "a"])] {
+        for (text, names) in [(mjcf, ["g", "v", "a"]), (sdf, ["b_s_gyro", "", "b_s_acceleration"])] {
             let record = run(&model(text, &[], &[("j", rate)]), &[("analysis.end", "1e-3")]);
             for (name, wanted) in names.iter().zip(&wanted).filter(|(name, _)| !name.is_empty()) {
                 let found = [1, 2, 3].map(|k| column(&record, &format!("{name}_{k}"), "value")[0]);

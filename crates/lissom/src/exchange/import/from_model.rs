@@ -32,6 +32,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     let mut robot = Robot {
         name: document.title.clone().unwrap_or_else(|| "robot".to_owned()),
         gravity: document.gravity,
+        pose: Motion::identity(),
         links: Vec::new(),
         is_root_the_world: false,
         joints: Vec::new(),

@@ -13,6 +13,7 @@ mod mjcf;
 mod model_text;
 mod motors;
 mod order;
+mod sdf;
 mod sensors;
 mod start;
 mod to_urdf;
@@ -32,6 +33,7 @@ pub use keyframes::Keyframe;
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text, omissions};
 pub use motors::{Motor, Motors};
+pub use sdf::from_sdf;
 pub use sensors::{Measured, MotionKind, Sensor};
 pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
@@ -57,8 +59,10 @@ fn from_z(direction: &Vector3) -> Rotation {
 pub struct Robot {
     /// Name of the robot.
     pub name: String,
-    /// Acceleration of gravity, in the axes of the root [m/s²].
+    /// Acceleration of gravity, in global axes [m/s²].
     pub gravity: Vector3,
+    /// Pose of the root, in global axes [m].
+    pub pose: Motion,
     /// Links of the robot; the first is the root.
     pub links: Vec<Link>,
     /// Whether the root is the world, which cannot move.
@@ -209,6 +213,16 @@ pub struct LinkInertia {
     pub centre: Vector3,
     /// Inertia about the centre of mass, in the link's axes [kg m²].
     pub inertia: Matrix3,
+}
+
+impl LinkInertia {
+    /// A mass whose moments xx, yy, zz, xy, xz, yz about its centre are in the axes of `frame`; none if all are zero.
+    fn placed(mass: f64, [xx, yy, zz, xy, xz, yz]: [f64; 6], frame: &Motion) -> Option<Self> {
+        let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let turn = frame.rotation.matrix();
+        let has_any = mass != 0.0 || own.iter().any(|value| *value != 0.0);
+        has_any.then(|| Self { mass, centre: frame.position, inertia: turn * own * turn.transpose() })
+    }
 }
 
 /// Freedom of a joint.

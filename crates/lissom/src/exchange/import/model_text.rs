@@ -259,7 +259,11 @@ fn draw(robot: &Robot, groups: &mut [Group], frames: &[Motion], contacts: &Conta
             if own.visuals.is_empty() {
                 continue;
             }
-            let offset = frames[link].relative_to(&frames[group.link]);
+            // The ground has the global axes, wherever the root is.
+            let offset = match group.name.as_str() {
+                "ground" => frames[link],
+                _ => frames[link].relative_to(&group.frame),
+            };
             let is_of_visuals = std::ptr::eq(own.drawn().as_ptr(), own.visuals.as_ptr());
             let touches = |index: usize| {
                 !contacts.are_there() || is_of_visuals && contacts.touches[link].get(index) == Some(&true)
@@ -404,7 +408,7 @@ fn is_at_rest(robot: &Robot) -> bool {
 /// Initial frames and twists of all links, and the link at the root of the group of each.
 fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector6>, Vec<usize>) {
     let count = robot.links.len();
-    let mut frames = vec![Motion::identity(); count];
+    let mut frames = vec![robot.pose; count];
     let mut twists = vec![root; count];
     let mut group_of: Vec<usize> = (0..count).collect();
     for joint in &robot.joints {

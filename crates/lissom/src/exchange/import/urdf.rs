@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lissom_model::output::Shade;
-use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
+use lissom_motion::{Motion, Rotation, Vector3};
 use roxmltree::Node;
 
 use super::visuals::shade;
@@ -58,6 +58,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     let robot = Robot {
         name,
         gravity: GRAVITY,
+        pose: Motion::identity(),
         links,
         is_root_the_world: false,
         joints,
@@ -218,14 +219,7 @@ fn inertia(node: Node<'_, '_>, name: &str) -> Result<Option<LinkInertia>, Import
     if mass < 0.0 {
         return Err(fault(format!("its mass is negative, {mass} kg")));
     }
-    let frame = origin(inertial)?;
-    let turn = frame.rotation.matrix();
-    let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    if mass == 0.0 && own.iter().all(|value| *value == 0.0) {
-        return Ok(None);
-    }
-    let inertia = turn * own * turn.transpose();
-    Ok(Some(LinkInertia { mass, centre: frame.position, inertia }))
+    Ok(LinkInertia::placed(mass, [xx, yy, zz, xy, xz, yz], &origin(inertial)?))
 }
 
 /// What is drawn of a link; none for a geometry that the format does not define.

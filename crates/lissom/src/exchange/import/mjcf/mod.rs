@@ -62,6 +62,7 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
         robot: Robot {
             name: root.attribute("model").unwrap_or("robot").to_owned(),
             gravity: outside::gravity(&root)?,
+            pose: Motion::identity(),
             links: vec![Link::new("world".to_owned(), None, String::new())],
             is_root_the_world: true,
             joints: Vec::new(),
