@@ -185,7 +185,7 @@ fn lone_models_keep_their_pose() {
 
 const WORLD: &str = "<world name='hall'><gravity>0 0 -5</gravity><physics><max_step_size>0.004</max_step_size></physics>
     <model name='floor'><static>true</static><link name='link'><collision name='c'><geometry><plane/></geometry>
-     <surface><friction><ode><mu>0.8</mu></ode></friction></surface></collision></link></model>
+     <surface><friction><ode><mu>0.8</mu></ode></friction><contact><collide_bitmask>0x02</collide_bitmask></contact></surface></collision></link></model>
     <model name='cart'><pose>0 0 1 0 0 0</pose><link name='wheel'>MASS<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>
      </collision></link><link name='body'><gravity>0</gravity>MASS<collision name='c'><geometry><box><size>1 1 1</size></box></geometry>
      <surface><friction><ode><mu>0.3</mu></ode></friction></surface></collision>
@@ -213,6 +213,30 @@ fn worlds_have_free_and_static_models_that_touch() {
     }
     assert_eq!(text.matches("kind = \"box\"").count(), 1, "a shape that is drawn and touches is one: {text}");
     is_near(&position(&text, "stone__link", "0.1"), [5.0, 0.0, 9.0 - 0.5 * 5.0 * 0.01]);
+    let blind = WORLD.replace("MASS", MASS).replace("0x02", "0");
+    assert!(!model(&described(&blind), &[], &[]).contains("[contacts."), "bitmasks exclude contacts");
+    // Joints of a static model do nothing, and may have the name of a link.
+    let arm = "<static>1</static><link name='link'/><link name='arm'/><joint name='arm' type='revolute'><parent>link</parent><child>arm</child>
+        <axis/></joint>";
+    let still = described(
+        &WORLD
+            .replace("MASS", MASS)
+            .replace("<static>true</static>", arm)
+            .replace("<model name='floor'>", "<model name='old'>"),
+    );
+    assert!(
+        still.obstacles.len() == 1 && still.obstacles[0].contains("same name, `old::link`"),
+        "{:?}",
+        still.obstacles
+    );
+    let robot = described(
+        &WORLD
+            .replace("MASS", MASS)
+            .replace("<static>true</static>", &arm.replace("<link name='link'/>", "")),
+    );
+    assert!(
+        robot.unsupported.is_empty() && robot.joints.iter().all(|joint| !joint.name.ends_with("arm_joint"))
+    );
     // Links of a model touch each other only by `self_collide`, and not if a joint connects them.
     let joint = "<joint name='j' type='prismatic'><parent>body</parent><child>wheel</child><axis/></joint>";
     for (collide, removed, wanted) in
@@ -247,6 +271,13 @@ fn fixed_and_ball_joints_close_loops() {
         model(&robot, &[], &[]).contains("[joints.l]\nkind = \"spherical\"\nbase = \"ground\"\ntip = \"b\"")
     );
     assert!(described(&of("fixed")).closures[0].locks_rotation);
+    // A joint that leads back to its own ancestor closes a loop, too.
+    let ring = described(
+        "<model name='m'><link name='a'/><link name='b'/><joint name='i' type='ball'><parent>a</parent><child>b</child></joint>
+         <joint name='k' type='ball'><parent>b</parent><child>a</child><pose>1 0 0 0 0 0</pose></joint></model>",
+    );
+    assert!(!ring.is_root_the_world && ring.links[0].name == "a");
+    assert_eq!((ring.joints.len(), ring.closures[0].links), (1, [1, 0]));
     let found = rejected(&of("revolute"));
     assert!(found.contains("the revolute joint <joint> `l` (line 4), whose child is also"), "{found}");
 }
@@ -373,6 +404,15 @@ fn faults_and_what_is_not_supported_are_named() {
             "<world name='w'><model name='m'><link name='a'/></model><state world_name='w'/></world>"
                 .to_owned(),
             "<state>",
+        ),
+        (
+            "<world name='w'><model name='m'><link name='a'/></model></world><model name='n'/>".to_owned(),
+            "<model> `n` (line 1)",
+        ),
+        (
+            model("<link name='a'/><link name='b'/><link name='c'/><joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>
+                <joint name='j' type='fixed'><parent>a</parent><child>c</child></joint>"),
+            "<joint> `j`: another element has the same name",
         ),
         ("<world name='w'/><world name='v'/>".to_owned(), "several worlds"),
         (

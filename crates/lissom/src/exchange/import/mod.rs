@@ -55,7 +55,7 @@ fn from_z(direction: &Vector3) -> Rotation {
 }
 
 /// Bodies in a tree of joints.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Robot {
     /// Name of the robot.
     pub name: String,

@@ -100,6 +100,16 @@ impl Robot {
         };
         self.motors = self.joints.iter().enumerate().filter_map(of).collect();
     }
+
+    /// Reports limits of the speed of joints, which are only written as comments.
+    pub(super) fn note_speed_limits(&mut self) {
+        let joints = match self.joints.iter().filter(|joint| joint.rating.speed.is_some()).count() {
+            0 => return,
+            1 => "1 joint".to_owned(),
+            count => format!("{count} joints"),
+        };
+        self.left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
+    }
 }
 
 /// Inputs and loads of all motors.

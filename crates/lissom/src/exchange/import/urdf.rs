@@ -48,33 +48,11 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     for node in children(root, "joint") {
         joints.push(joint(node, &numbers, &mut notes)?);
     }
-    let Notes { obstacles, mut left_out, planar, .. } = notes;
+    let Notes { obstacles, left_out, planar, .. } = notes;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    let limited = joints.iter().filter(|joint| joint.rating.speed.is_some()).count();
-    if limited > 0 {
-        let joints = if limited == 1 { "1 joint".to_owned() } else { format!("{limited} joints") };
-        left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
-    }
-    let robot = Robot {
-        name,
-        gravity: GRAVITY,
-        pose: Motion::identity(),
-        links,
-        is_root_the_world: false,
-        joints,
-        closures: Vec::new(),
-        ropes: Vec::new(),
-        tendons: Vec::new(),
-        contacts: super::ContactRules::default(),
-        compensations: Vec::new(),
-        keyframes: Vec::new(),
-        motors: Vec::new(),
-        sensors: Vec::new(),
-        left_out,
-        unsupported: Vec::new(),
-        obstacles,
-    };
+    let robot = Robot { name, gravity: GRAVITY, links, joints, left_out, obstacles, ..Robot::default() };
     let mut robot = with_planar_joints(robot.in_order()?, &planar);
+    robot.note_speed_limits();
     robot.fix_massless_ends();
     robot.motors_by_effort();
     Ok(robot)

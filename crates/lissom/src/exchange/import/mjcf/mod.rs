@@ -62,21 +62,11 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
         robot: Robot {
             name: root.attribute("model").unwrap_or("robot").to_owned(),
             gravity: outside::gravity(&root)?,
-            pose: Motion::identity(),
             links: vec![Link::new("world".to_owned(), None, String::new())],
             is_root_the_world: true,
-            joints: Vec::new(),
-            closures: Vec::new(),
-            ropes: Vec::new(),
-            tendons: Vec::new(),
             contacts: ContactRules { filters_parents: true, ..ContactRules::default() },
-            compensations: Vec::new(),
-            keyframes: Vec::new(),
-            motors: Vec::new(),
-            sensors: Vec::new(),
-            left_out: Vec::new(),
-            unsupported: Vec::new(),
             obstacles,
+            ..Robot::default()
         },
     };
     for world in root.of("worldbody") {

@@ -78,9 +78,10 @@ impl Frames {
         let (pose, named) = element.pose()?;
         let name = format!("{}{name}", self.scopes[scope].prefix);
         let index = self.all.len();
-        if self.names.insert(name.clone(), index).is_some() {
+        if self.names.contains_key(&name) {
             return Err(element.fault(format!("another element has the same name, `{name}`")));
         }
+        self.names.insert(name.clone(), index);
         let base = named.map_or(base, |named| Ok(named.to_owned()));
         self.all.push(Frame { name, scope, pose, base, carrier, source: element.words() });
         Ok(index)
@@ -98,8 +99,8 @@ impl Frames {
             "world" | "__root__" => Some(WORLD),
             "__model__" => Some(*own),
             _ => {
-                let name = name.strip_suffix("::__model__").unwrap_or(name);
-                self.names.get(&format!("{prefix}{name}")).copied()
+                let known = |name: &str| self.names.get(&format!("{prefix}{name}")).copied();
+                known(name).or_else(|| known(name.strip_suffix("::__model__")?))
             }
         }
     }

@@ -85,27 +85,19 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
         robot: Robot {
             name: top.attribute("name").unwrap_or("robot").to_owned(),
             gravity: GRAVITY.into(),
-            links: Vec::new(),
-            pose: Motion::identity(),
             is_root_the_world: !worlds.is_empty(),
-            joints: Vec::new(),
-            closures: Vec::new(),
-            ropes: Vec::new(),
-            tendons: Vec::new(),
             contacts: ContactRules {
                 filters_parents: true,
                 takes_lower_friction: true,
                 ..ContactRules::default()
             },
-            compensations: Vec::new(),
-            keyframes: Vec::new(),
-            motors: Vec::new(),
-            sensors: Vec::new(),
-            left_out: Vec::new(),
-            unsupported: Vec::new(),
-            obstacles: Vec::new(),
+            ..Robot::default()
         },
     };
+    // Beside a world nothing is read.
+    for child in root.children.iter().filter(|child| !worlds.is_empty() && child.tag != "world") {
+        reader.other(child);
+    }
     let read = reader.world(top);
     reader.robot.keep(read);
     reader.content(top, &Around { scope: 0, is_static: false, collides: false, model: None });
@@ -163,7 +155,10 @@ impl<'a> Reader<'a> {
     }
 
     fn content(&mut self, element: &'a Element, around: &Around) {
-        for child in &element.children {
+        // Joints of old versions may have the name of another element, which counts.
+        let (joints, others): (Vec<_>, Vec<_>) =
+            element.children.iter().partition(|child| child.tag == "joint");
+        for child in others.into_iter().chain(joints) {
             let read = self.entry(child, around);
             self.robot.keep(read);
         }
@@ -183,7 +178,11 @@ impl<'a> Reader<'a> {
             "joint" => {
                 let moved = child.word("child").ok_or_else(|| child.fault("it has no <child>"))?.to_owned();
                 let carrier = Carrier::Named(moved.clone());
-                let frame = self.frames.add(child, scope, child.name()?, (Ok(moved), carrier))?;
+                let name = child.name()?.to_owned();
+                let taken = self.frames.find(scope, &name);
+                let is_taken = taken.is_some_and(|own| self.joints.iter().all(|(_, joint)| *joint != own));
+                let name = if is_taken { format!("{name}_joint") } else { name };
+                let frame = self.frames.add(child, scope, &name, (Ok(moved), carrier))?;
                 self.joints.push((child, frame));
             }
             "frame" => {
@@ -299,25 +298,34 @@ impl<'a> Reader<'a> {
         for &(element, frame) in &self.joints {
             joints.extend(self.robot.keep(self.joined(element, frame)));
         }
-        // A gear between two joints is none in the tree.
+        // A gear between two joints is none in the tree, and between immovable links joints have no effect.
+        let is_static = |link: usize| self.links[link].around.is_static;
+        joints.retain(|joint| !(is_static(joint.child) && joint.parent.is_none_or(is_static)));
         joints.retain(|joint| {
             let is_gear = joint.element.attribute("type") == Some("gearbox");
             self.robot.unsupported.extend(is_gear.then(|| format!("the gearbox {}", joint.element.words())));
             !is_gear
         });
+        // The tree has the first joint of each link, unless it would lead back to the link: other joints close loops.
         let mut is_carried: Vec<bool> = self.links.iter().map(|link| link.around.is_static).collect();
+        let mut parents: Vec<Option<usize>> = vec![None; self.links.len()];
+        let mut closes = Vec::new();
+        for joint in &joints {
+            let leads_back = || {
+                let mut above = std::iter::successors(joint.parent, |link| parents[*link]);
+                above.any(|link| link == joint.child)
+            };
+            let is_closure = is_carried[joint.child] || leads_back();
+            if !is_closure {
+                (is_carried[joint.child], parents[joint.child]) = (true, joint.parent);
+            }
+            closes.push(is_closure);
+        }
         let is_root_the_world = self.robot.is_root_the_world
             || self.models.len() != 1
-            || is_carried.contains(&true)
-            || joints.iter().any(|joint| joint.parent.is_none());
-        let roots = {
-            let mut has_parent = vec![false; self.links.len()];
-            for joint in &joints {
-                has_parent[joint.child] = true;
-            }
-            has_parent.iter().filter(|has| !**has).count()
-        };
-        let is_root_the_world = is_root_the_world || roots != 1;
+            || self.links.iter().any(|link| link.around.is_static)
+            || joints.iter().any(|joint| joint.parent.is_none())
+            || is_carried.iter().filter(|carried| !**carried).count() != 1;
         self.robot.is_root_the_world = is_root_the_world;
         if is_root_the_world {
             self.robot.links.push(Link::new("world".to_owned(), None, String::new()));
@@ -342,8 +350,7 @@ impl<'a> Reader<'a> {
             let fixed = to_world(&self, link, Freedom::Fixed);
             self.robot.joints.push(fixed);
         }
-        for joint in &joints {
-            let closes = std::mem::replace(&mut is_carried[joint.child], true);
+        for (joint, closes) in joints.iter().zip(closes) {
             if closes {
                 self.close(joint, shift, &poses);
             } else {
@@ -387,12 +394,7 @@ impl<'a> Reader<'a> {
                 self.surfaces
             ));
         }
-        let limited = self.robot.joints.iter().filter(|joint| joint.rating.speed.is_some()).count();
-        if limited > 0 {
-            self.robot
-                .left_out
-                .push(format!("speed limits of {limited} joints (`velocity`), which are not enforced"));
-        }
+        self.robot.note_speed_limits();
     }
 
     /// Adds the joints of an element.

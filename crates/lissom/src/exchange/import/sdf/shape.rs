@@ -7,7 +7,7 @@ use super::super::{ImportError, Touch, TouchLaw, Visual, VisualShape, from_z};
 use super::element::Element;
 
 /// Bits of a bitmask without a value.
-const BITS: f64 = 65535.0;
+const BITS: u32 = 0xffff;
 /// Contents of a surface that are read.
 const SURFACE: [&[&str]; 5] = [
     &["friction", "ode", "mu"],
@@ -75,7 +75,16 @@ pub(super) fn touch(element: &Element, group: Option<usize>) -> Result<Option<To
     if contact.map_or(Ok(false), |own| own.flag("collide_without_contact"))? {
         return Ok(None);
     }
-    let mask = |tag: &str, default: f64| contact.map_or(Ok(default), |own| own.number(tag, default));
+    let mask = |tag: &str, default: u32| -> Result<u32, ImportError> {
+        let Some(text) = contact.and_then(|own| own.word(tag)) else { return Ok(default) };
+        let read = match text.to_lowercase().strip_prefix("0x") {
+            Some(digits) => u32::from_str_radix(digits, 16),
+            None => text.parse(),
+        };
+        read.map_err(|_| {
+            element.fault(format!("`{tag}` must be a whole number or begin with 0x, not `{text}`"))
+        })
+    };
     let collide = mask("collide_bitmask", BITS)?;
     let category = mask("category_bitmask", collide)?;
     let friction = match (within(&["friction", "ode"]), within(&["friction", "bullet"])) {
@@ -87,7 +96,7 @@ pub(super) fn touch(element: &Element, group: Option<usize>) -> Result<Option<To
         return Err(element.fault(format!("its friction is negative: {friction}")));
     }
     Ok(Some(Touch {
-        masks: [category, collide].map(|mask| mask as u32),
+        masks: [category, collide],
         priority: 0.0,
         mixing: 1.0,
         is_frictionless: false,
