@@ -14,7 +14,7 @@ use lissom::{Diagnose, Diagnostic, Model, SessionError};
 use super::outcome::{Exit, Failure};
 use super::terminal;
 
-/// Convert a robot description (URDF, MJCF) to a model file: bodies, joints, limits, springs, damping and friction.
+/// Convert a robot description (URDF, MJCF, SDF) to a model file: bodies, joints, limits, springs, damping and friction.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -23,9 +23,10 @@ Examples:
   lissom import ur5.urdf --motors                  an input and a torque for each motor
   lissom import solo12.urdf --floating --without limits,friction
   lissom import hopper.xml                         MJCF, the description of MuJoCo
-  lissom import humanoid.xml --keyframe squat      starts at one of its key frames")]
+  lissom import humanoid.xml --keyframe squat      starts at one of its key frames
+  lissom import world.sdf                          SDF, the description of Gazebo, with all its models")]
 pub(super) struct Import {
-    /// The description: URDF or MJCF, regardless of the file extension.
+    /// The description: URDF, MJCF or SDF, regardless of the file extension.
     #[arg(value_name = "ROBOT")]
     file: PathBuf,
     /// The model file to write [default: the name of the description with the extension toml, in the current folder].

@@ -72,7 +72,7 @@ commands! {
         Check(check::Check) "Find errors, degrees of freedom and redundant constraints",
         Kinds(kinds::Kinds) "List kinds, keys, functions and schemes of model files",
         Schema(schema::Schema) "Print the JSON schema of model files, for completion in editors",
-        Import(import::Import) "Convert a robot description (URDF, MJCF) to a model file",
+        Import(import::Import) "Convert a robot description (URDF, MJCF, SDF) to a model file",
     }
     "Simulation" {
         Run(run::Run) "Simulate a model as specified in its table `[analysis]`",

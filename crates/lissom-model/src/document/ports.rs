@@ -192,8 +192,8 @@ fn joint(reader: &Reader<'_, '_>, key: &str, name: &str) -> Option<Located<Strin
     let joint = reader.name_in(key)?;
     let context = reader.context;
     // Only a joint can name itself: springs live in a table of their own.
-    let is_joint = context.names("joints").contains(&(name, reader.name));
-    if is_joint && joint.value == name {
+    let is_joint = || context.names("joints").contains(&(name, reader.name));
+    if joint.value == name && is_joint() {
         let message = format!("{} acts on itself", reader.what);
         return context.fail(joint.span, message, "specify the joint whose coordinate it prescribes");
     }

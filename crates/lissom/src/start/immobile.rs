@@ -33,7 +33,8 @@ pub(super) fn immobile(document: &Document, system: &System, state: &State) -> O
         let help = "add `gravity = [0, 0, -9.81]`, a load, a drive, or a `velocity` of a part";
         return Some(warning(message.to_owned(), help));
     }
-    let cause = out_of_line(document).filter(|_| is_rigid && is_small)?;
+    // The axes of all joints are compared with each other: only in small models.
+    let cause = (is_rigid && is_small).then(|| out_of_line(document))??;
     (mobility(system, state).freedoms == 0).then(|| {
         let message = format!("the joints leave no part a motion, the model has 0 degrees of freedom: {cause}");
         let help = "`lissom check` lists the constraints; correct the axes and positions of the joints, or remove one";

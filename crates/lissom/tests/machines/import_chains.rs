@@ -1,7 +1,7 @@
 //! Imported joints of several coordinates and loops: several hinges or slides of one body against the equations of Newton and
 //! Euler, free flight, planar joints of URDF, connected bodies.
 
-use lissom::exchange::import::{Options, Pose, from_description, model_text};
+use lissom::exchange::import::{Options, Pose, Robot, from_description, model_text};
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use crate::support::runs::{SCHEMES, column, last, run};
@@ -230,4 +230,73 @@ fn open_loops_and_unknown_bodies_are_refused() {
     let robot = from_description(&text.replace("body1='a'", "body1='c'")).expect("a robot");
     let refused = model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string();
     assert!(refused.contains("there is no body `c`"), "{refused}");
+}
+
+/// A chain of 2,000 links whose joints are listed from its end, with followers of followers and a link without mass in the middle.
+#[test]
+fn long_chains_are_read_in_any_order() {
+    let count = 2000;
+    let links = (0..count).map(|k| {
+        let mass = "<inertial><mass value='0.1'/><inertia ixx='1e-3' iyy='1e-3' izz='1e-3'/></inertial>";
+        format!("<link name='l{k}'>{}</link>", if k == 1000 { "" } else { mass })
+    });
+    let joints = (0..count).rev().map(|k| {
+        let parent = if k == 0 { "base".to_owned() } else { format!("l{}", k - 1) };
+        let axis = ["1 0 0", "0 1 0"][k % 2];
+        let mimic = if k < 2 { String::new() } else { format!("<mimic joint='j{}' multiplier='-1' offset='0.1'/>", k - 2) };
+        format!(
+            "<joint name='j{k}' type='revolute'><origin xyz='0 0 -0.1'/><parent link='{parent}'/><child link='l{k}'/>\
+             <axis xyz='{axis}'/><limit lower='-0.5' upper='0.5' effort='1' velocity='1'/>{mimic}</joint>"
+        )
+    });
+    let all: String = links.chain(joints).collect();
+    let robot =
+        from_description(&format!("<robot name='r'>{all}<link name='base'/></robot>")).expect("a robot");
+    assert_eq!((robot.links[0].name.as_str(), robot.links.len()), ("base", count + 1));
+    for (k, joint) in robot.joints.iter().enumerate() {
+        assert_eq!((joint.name.clone(), joint.parent, joint.child), (format!("j{k}"), k, k + 1));
+        assert_eq!(robot.links[k + 1].name, format!("l{k}"));
+    }
+    let pose = Pose { values: [("j0".to_owned(), 0.3), ("j1".to_owned(), 0.2)].into(), ..Pose::default() };
+    let text = model_text(&robot, &pose, Options::default()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(text.contains("[bodies.l1000]\nmass = 0\n"), "a link without mass between joints");
+    // Each second joint follows by 0.1 - q: 0.3, 0.2, -0.2, -0.1, 0.3, …
+    let of = |joint: usize| {
+        let entry = text.split(&format!("\n[joints.j{joint}]\n")).nth(1).expect("there");
+        let line = entry.lines().find(|line| line.starts_with("angle")).expect("not zero");
+        line.split(' ').next_back().and_then(|value| value.parse::<f64>().ok()).expect("a number")
+    };
+    for (joint, wanted) in [(0, 0.3), (2, -0.2), (3, -0.1), (1996, 0.3), (1998, -0.2), (1999, -0.1)] {
+        assert!((of(joint) - wanted).abs() < 1e-12, "{joint}: {}", of(joint));
+    }
+    assert!(lissom::Model::from_text("chain.toml", &text).session().is_ok());
+    // Two massless neighbours whose axes are parallel move without moving a mass.
+    let parallel = all_parallel(&robot);
+    let found = model_text(&parallel, &Pose::default(), Options { mimic: false, ..Options::default() });
+    let found = found.unwrap_err().message;
+    assert!(found.contains("the joints `j1000`, `j1001` can move together"), "{found}");
+}
+
+/// A chain with parallel axes through one point at its link without mass.
+fn all_parallel(robot: &Robot) -> Robot {
+    let mut robot = robot.clone();
+    for joint in &mut robot.joints[1000..1002] {
+        joint.axis = Vector3::z();
+    }
+    robot
+}
+
+/// Limits of which one end is infinite exclude positions beyond the other one.
+#[test]
+fn limits_with_one_end_exclude_positions() {
+    let text = "<robot name='r'><link name='base'/><link name='arm'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
+        </link><joint name='j' type='continuous'><parent link='base'/><child link='arm'/></joint></robot>";
+    let mut robot = from_description(text).expect("a robot");
+    robot.joints[0].range = Some([f64::NEG_INFINITY, 0.5]);
+    let at = |value: f64| {
+        let pose = Pose { values: [("j".to_owned(), value)].into(), ..Pose::default() };
+        model_text(&robot, &pose, Options::default())
+    };
+    assert!(at(0.6).unwrap_err().message.contains("starts at 0.6, outside of its limits -inf … 0.5"));
+    run(&at(-7.0).expect("within"), &SHORT);
 }

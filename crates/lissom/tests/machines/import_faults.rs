@@ -338,3 +338,14 @@ fn disabled_actuators_are_omitted() {
         assert!(robot.motors.last().is_none_or(|motor| motor.start == 3.0), "{:?}", robot.motors);
     }
 }
+
+/// Limits with two equal ends, as exporters write that know none, hold nothing: the joint moves freely, which is reported.
+#[test]
+fn limits_with_equal_ends_are_reported() {
+    let text = "<robot name='r'><link name='base'/><link name='arm'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>\
+                <joint name='hip' type='revolute'><parent link='base'/><child link='arm'/><limit lower='0' upper='0'/></joint></robot>";
+    let robot = from_description(text).expect("a robot");
+    let text = model_text(&robot, &Pose::default(), Options::default()).unwrap();
+    assert!(text.contains("two equal ends") && text.contains("`hip`"), "{text}");
+    assert!(!text.contains("stop_stiffness") && !text.contains("Stiffness of stops"), "{text}");
+}

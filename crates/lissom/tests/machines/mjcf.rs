@@ -321,7 +321,7 @@ fn what_cannot_be_said_is_reported() {
         |inside: &str| format!("<mujoco><worldbody><body name='b'>{inside}</body></worldbody></mujoco>");
     let mass = "<geom size='0.1'/>";
     for (text, words) in [
-        ("<sdf/>".to_owned(), "neither URDF nor MJCF"),
+        ("<svg/>".to_owned(), "neither URDF, MJCF nor SDF"),
         (body("<joint/>"), "link `b` moves, but neither it"),
         (body("<joint/><geom type='mesh' mesh='a'/>"), "there is no <mesh> `a`"),
         (body(&format!("<joint type='hing'/>{mass}")), "`hing`"),

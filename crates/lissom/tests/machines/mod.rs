@@ -9,6 +9,8 @@ mod mjcf;
 mod mjcf_scenes;
 mod prescribed_motion;
 mod rolling;
+mod sdf;
+mod sensors;
 mod starts;
 mod to_urdf;
 mod touching;

@@ -28,6 +28,8 @@ pub struct Touch {
     pub mixing: f64,
     /// Whether two such shapes touch without friction.
     pub is_frictionless: bool,
+    /// Group of shapes that do not touch each other.
+    pub group: Option<usize>,
     /// Law of its touches.
     pub law: TouchLaw,
 }
@@ -63,6 +65,8 @@ pub struct ContactRules {
     pub filters_parents: bool,
     /// Whether nothing touches.
     pub is_disabled: bool,
+    /// Whether the friction of two shapes is the lower of both, instead of the higher.
+    pub takes_lower_friction: bool,
     /// Step of the description's own solver [s].
     pub step: Option<f64>,
 }
@@ -75,15 +79,24 @@ const MAX_STEP: f64 = 5e-3;
 const STEP: f64 = 2e-3;
 
 impl TouchLaw {
+    /// The law of shapes whose description states no softness, with a coefficient of friction.
+    pub(super) fn with_friction(friction: f64) -> Self {
+        Self { friction, softness: [0.02, 1.0], impedance: 0.95 }
+    }
+
     /// The law of two shapes that touch.
-    fn between(one: &Touch, other: &Touch) -> Self {
+    fn between(one: &Touch, other: &Touch, takes_lower_friction: bool) -> Self {
         if one.priority != other.priority {
             let own = if one.priority > other.priority { one } else { other };
             let friction = if own.is_frictionless { 0.0 } else { own.law.friction };
             return Self { friction, ..own.law };
         }
         let is_frictionless = one.is_frictionless && other.is_frictionless;
-        let friction = if is_frictionless { 0.0 } else { one.law.friction.max(other.law.friction) };
+        let friction = match (one.law.friction, other.law.friction) {
+            _ if is_frictionless => 0.0,
+            (one, other) if takes_lower_friction => one.min(other),
+            (one, other) => one.max(other),
+        };
         let sum = one.mixing + other.mixing;
         let share = if sum > 0.0 { one.mixing / sum } else { 0.5 };
         let average = |a: f64, b: f64| if a == b { a } else { share * a + (1.0 - share) * b };
@@ -144,6 +157,7 @@ struct Pairs {
     /// Number of pairs of which only some shapes may touch, and of those with ellipsoids on both sides.
     mixed: usize,
     ellipsoids: usize,
+    takes_lower_friction: bool,
 }
 
 impl Pairs {
@@ -160,7 +174,8 @@ impl Pairs {
         }
         let is_joined =
             |one: usize, other: usize| bodies[other].parent == Some(one) && !bodies[one].is_ground;
-        let mut found = Self::default();
+        let takes_lower_friction = robot.contacts.takes_lower_friction;
+        let mut found = Self { takes_lower_friction, ..Self::default() };
         for tip in (0..bodies.len()).filter(|&tip| !shapes[tip].is_empty()) {
             for base in (0..tip).filter(|&base| !shapes[base].is_empty()) {
                 let own = own_laws.get(&[base, tip]).copied();
@@ -180,8 +195,9 @@ impl Pairs {
         let (mut law, mut count) = (own, 0);
         for (one, other) in base.iter().flat_map(|one| tip.iter().map(move |other| (one.touch, other.touch)))
         {
-            let may_touch =
-                own.is_some() || one.masks[0] & other.masks[1] != 0 || other.masks[0] & one.masks[1] != 0;
+            let may_touch = own.is_some()
+                || (one.group.is_none() || one.group != other.group)
+                    && (one.masks[0] & other.masks[1] != 0 || other.masks[0] & one.masks[1] != 0);
             if !may_touch {
                 continue;
             }
@@ -192,7 +208,7 @@ impl Pairs {
                 }
             }
             if own.is_none() {
-                let next = TouchLaw::between(&one, &other);
+                let next = TouchLaw::between(&one, &other, self.takes_lower_friction);
                 law = Some(law.map_or(next, |law| stronger(law, next)));
             }
         }

@@ -32,19 +32,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     let mut robot = Robot {
         name: document.title.clone().unwrap_or_else(|| "robot".to_owned()),
         gravity: document.gravity,
-        links: Vec::new(),
-        is_root_the_world: false,
-        joints: Vec::new(),
-        left_out: Vec::new(),
-        closures: Vec::new(),
-        ropes: Vec::new(),
-        tendons: Vec::new(),
-        contacts: super::ContactRules::default(),
-        compensations: Vec::new(),
-        keyframes: Vec::new(),
-        motors: Vec::new(),
-        obstacles: Vec::new(),
-        unsupported: Vec::new(),
+        ..Robot::default()
     };
     let lowered = lower(document).map_err(|report| ImportError::new(report.to_string()))?;
     let frame_of = |body: &Body| {

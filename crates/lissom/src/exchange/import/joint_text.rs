@@ -104,7 +104,7 @@ pub(super) fn write_resistance(text: &mut String, joint: &RobotJoint, place: &Pl
     let mut entry = |name: &str, kind: &str, rest: &str| {
         let _ = write!(text, "\n[springs.{own}_{name}]\nkind = \"{word}{kind}\"\njoint = \"{own}\"\n{rest}");
     };
-    if let Some([low, high]) = joint.range.filter(|[low, high]| options.limits && low < high) {
+    if let Some([low, high]) = joint.range.filter(|_| options.limits && joint.has_stop()) {
         entry("limits", "_stop", &format!("range = [{low:?}, {high:?}]\nstiffness = \"stop_stiffness\"\n"));
     }
     if joint.spring.stiffness > 0.0 {

@@ -5,7 +5,7 @@
 //! the matrix are independent whose rows are the twists of all bodies with mass, the rates of joints with a rotor, and q̇_f - k q̇_l
 //! of followers. Modified Gram-Schmidt orthogonalisation finds columns that depend on those before.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lissom_motion::{Motion, Vector3, Vector6, screw};
 
@@ -23,51 +23,79 @@ pub(super) enum Massless {
     Together(BTreeSet<usize>),
 }
 
-/// Combinations of the rates of joints that move no mass, and no rotor. `frames` are those of the links, `bodies` the links with
-/// the frames of bodies with mass.
+/// Joints between the same bodies with mass, through links without mass.
+#[derive(Default)]
+struct Cluster {
+    joints: Vec<usize>,
+    /// Links with mass at which it ends.
+    ends: Vec<usize>,
+    /// Followers with a joint in it: the index, that of the leader, and the factor.
+    followers: Vec<(usize, usize, f64)>,
+}
+
+/// Combinations of the rates of joints that move no mass, and no rotor. `frames` are those of the links, `stops` whether each is part
+/// of a body with mass or of the ground.
+///
+/// Where all bodies with mass are at rest, joints on both sides of one move nothing of each other: the tree is cut there.
 pub(super) fn without_mass(
     robot: &Robot,
     frames: &[Motion],
-    bodies: &[usize],
+    stops: &[bool],
     has_followers: bool,
 ) -> Vec<Massless> {
     let mut into = vec![None; robot.links.len()];
     robot.joints.iter().enumerate().for_each(|(index, joint)| into[joint.child] = Some(index));
-    // Joints of different trees on the root move nothing of each other.
-    let mut tree: Vec<usize> = Vec::with_capacity(robot.joints.len());
+    let mut cluster_of: Vec<usize> = Vec::with_capacity(robot.joints.len());
     for (index, joint) in robot.joints.iter().enumerate() {
-        tree.push(into[joint.parent].map_or(index, |parent: usize| tree[parent]));
+        let around = into[joint.parent].filter(|_| !stops[joint.parent]);
+        cluster_of.push(around.map_or(index, |parent: usize| cluster_of[parent]));
     }
+    let mut clusters = BTreeMap::<usize, Cluster>::new();
     for (index, joint) in robot.joints.iter().enumerate() {
-        if let Some((leader, _, _)) = joint.follows.as_ref().filter(|_| has_followers)
-            && let Some(leader) = robot.joints.iter().position(|other| other.name == *leader)
+        let own = clusters.entry(cluster_of[index]).or_default();
+        own.joints.push(index);
+        own.ends.extend(stops[joint.child].then_some(joint.child));
+    }
+    // A joint alone between two bodies with mass moves one of them.
+    clusters.retain(|_, own| own.joints.len() > 1 || own.ends.is_empty());
+    let index = robot.joint_index();
+    let followers: Vec<(usize, usize, f64)> = robot
+        .joints
+        .iter()
+        .enumerate()
+        .filter_map(|(own, joint)| {
+            let (leader, factor, _) = joint.follows.as_ref().filter(|_| has_followers)?;
+            Some((own, *index.get(leader.as_str())?, *factor))
+        })
+        .collect();
+    for &(own, leader, _) in &followers {
+        let [one, other] = [cluster_of[own], cluster_of[leader]];
+        if one != other
+            && clusters.contains_key(&other)
+            && let Some(joined) = clusters.remove(&one)
         {
-            let [one, other] = [tree[index], tree[leader]];
-            tree.iter_mut().filter(|own| **own == one).for_each(|own| *own = other);
+            joined.joints.iter().for_each(|joint| cluster_of[*joint] = other);
+            let into = clusters.entry(other).or_default();
+            into.joints.extend(joined.joints);
+            into.ends.extend(joined.ends);
         }
     }
-    let mut trees = std::collections::BTreeMap::<usize, (Vec<usize>, Vec<usize>)>::new();
-    for (index, own) in tree.iter().enumerate() {
-        trees.entry(*own).or_default().0.push(index);
-    }
-    for &body in bodies {
-        if let Some((_, own)) = into[body].and_then(|joint| trees.get_mut(&tree[joint])) {
-            own.push(body);
+    for own in followers {
+        let mut both = vec![cluster_of[own.0], cluster_of[own.1]];
+        both.dedup();
+        for cluster in both {
+            clusters.entry(cluster).and_modify(|into| into.followers.push(own));
         }
     }
-    let of_tree = |(joints, bodies): &(Vec<usize>, Vec<usize>)| {
-        of_joints(robot, frames, (joints, &into), bodies, has_followers)
-    };
-    trees.values().flat_map(of_tree).collect()
+    clusters.values().flat_map(|own| of_cluster(robot, frames, own, (&into, stops))).collect()
 }
 
-/// Combinations of the rates of some joints, which alone move `bodies`.
-fn of_joints(
+/// Combinations of the rates of the joints of a cluster, which alone move its ends.
+fn of_cluster(
     robot: &Robot,
     frames: &[Motion],
-    (joints, into): (&[usize], &[Option<usize>]),
-    bodies: &[usize],
-    has_followers: bool,
+    Cluster { joints, ends, followers }: &Cluster,
+    (into, stops): (&[Option<usize>], &[bool]),
 ) -> Vec<Massless> {
     let columns: Vec<(usize, Column)> = joints
         .iter()
@@ -76,11 +104,12 @@ fn of_joints(
         })
         .collect();
     let mut rows: Vec<Vec<f64>> = Vec::new();
-    for &body in bodies {
-        let (mut path, mut link) = (BTreeSet::new(), body);
-        while let Some(joint) = into[link] {
+    for &body in ends {
+        let (mut path, mut next) = (BTreeSet::new(), into[body]);
+        while let Some(joint) = next {
             path.insert(joint);
-            link = robot.joints[joint].parent;
+            let parent = robot.joints[joint].parent;
+            next = into[parent].filter(|_| !stops[parent]);
         }
         let about = frames[body].position;
         let twist = |(index, column): &(usize, Column)| {
@@ -93,16 +122,11 @@ fn of_joints(
     let unit = |at: usize, factor: f64| {
         columns.iter().map(move |(index, _)| if *index == at { factor } else { 0.0 })
     };
-    for &index in joints {
-        let joint = &robot.joints[index];
-        if joint.armature > 0.0 {
-            rows.push(unit(index, 1.0).collect());
-        }
-        if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| has_followers)
-            && let Some(leader) = robot.joints.iter().position(|other| other.name == *leader)
-        {
-            rows.push(unit(index, 1.0).zip(unit(leader, -factor)).map(|(own, other)| own + other).collect());
-        }
+    for &index in joints.iter().filter(|index| robot.joints[**index].armature > 0.0) {
+        rows.push(unit(index, 1.0).collect());
+    }
+    for &(own, leader, factor) in followers {
+        rows.push(unit(own, 1.0).zip(unit(leader, -factor)).map(|(own, other)| own + other).collect());
     }
     let mut found = Vec::new();
     let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();

@@ -12,6 +12,9 @@ mod massless;
 mod mjcf;
 mod model_text;
 mod motors;
+mod order;
+mod sdf;
+mod sensors;
 mod start;
 mod to_urdf;
 mod urdf;
@@ -30,6 +33,8 @@ pub use keyframes::Keyframe;
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text, omissions};
 pub use motors::{Motor, Motors};
+pub use sdf::from_sdf;
+pub use sensors::{Measured, MotionKind, Sensor};
 pub use start::{ChosenStart, chosen_starts};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
@@ -50,12 +55,14 @@ fn from_z(direction: &Vector3) -> Rotation {
 }
 
 /// Bodies in a tree of joints.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Robot {
     /// Name of the robot.
     pub name: String,
-    /// Acceleration of gravity, in the axes of the root [m/s²].
+    /// Acceleration of gravity, in global axes [m/s²].
     pub gravity: Vector3,
+    /// Pose of the root, in global axes [m].
+    pub pose: Motion,
     /// Links of the robot; the first is the root.
     pub links: Vec<Link>,
     /// Whether the root is the world, which cannot move.
@@ -76,6 +83,8 @@ pub struct Robot {
     pub keyframes: Vec<Keyframe>,
     /// Motors, which are omitted unless they are requested.
     pub motors: Vec<Motor>,
+    /// Sensors, which become outputs.
+    pub sensors: Vec<Sensor>,
     /// Contents of the description that are omitted from the model, one sentence each.
     pub left_out: Vec<String>,
     /// Elements that act on the robot and cannot be modelled, one sentence each: rejected unless their omission is
@@ -101,6 +110,15 @@ impl Robot {
     /// Whether nothing moves unless the root does: a thing and no machine.
     pub fn is_object(&self) -> bool {
         self.may_float() && self.joints.iter().all(|joint| joint.freedom == Freedom::Fixed)
+    }
+
+    /// Indices of joints by name; of several of one name, the first.
+    fn joint_index(&self) -> BTreeMap<&str, usize> {
+        let mut index = BTreeMap::new();
+        for (own, joint) in self.joints.iter().enumerate() {
+            index.entry(joint.name.as_str()).or_insert(own);
+        }
+        index
     }
 
     /// The value of a reading; none, and an obstacle, if it failed.
@@ -197,6 +215,16 @@ pub struct LinkInertia {
     pub inertia: Matrix3,
 }
 
+impl LinkInertia {
+    /// A mass whose moments xx, yy, zz, xy, xz, yz about its centre are in the axes of `frame`; none if all are zero.
+    fn placed(mass: f64, [xx, yy, zz, xy, xz, yz]: [f64; 6], frame: &Motion) -> Option<Self> {
+        let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let turn = frame.rotation.matrix();
+        let has_any = mass != 0.0 || own.iter().any(|value| *value != 0.0);
+        has_any.then(|| Self { mass, centre: frame.position, inertia: turn * own * turn.transpose() })
+    }
+}
+
 /// Freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
@@ -288,6 +316,11 @@ impl RobotJoint {
             follows: None,
             source: String::new(),
         }
+    }
+
+    /// Whether its limits are apart.
+    fn has_stop(&self) -> bool {
+        self.range.is_some_and(|[low, high]| low < high)
     }
 
     /// Whether it has a coordinate.

@@ -18,6 +18,7 @@ use super::joint_text::{
 };
 use super::massless::{Massless, without_mass};
 use super::motors::{Motors, write_motors};
+use super::sensors::{Mount, write_sensors};
 use super::start::{Start, prefix};
 use super::{Closure, Freedom, ImportError, LinkInertia, Pose, Robot, list};
 
@@ -169,13 +170,14 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
             write_closure(&mut text, name, closure, &at, [base, tip]);
         }
     }
+    let index = robot.joint_index();
     for (joint, place) in robot.joints.iter().zip(&placed) {
         write_resistance(&mut text, joint, place, options);
         write_armature(&mut text, joint, place);
         if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic)
-            && let Some(leader) = robot.joints.iter().position(|own| own.name == *leader)
+            && let Some(leader) = index.get(leader.as_str())
         {
-            write_follower(&mut text, place, &placed[leader], *factor);
+            write_follower(&mut text, place, &placed[*leader], *factor);
         }
     }
     if options.motors == Motors::Written {
@@ -185,7 +187,14 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     write_ropes(&mut text, robot, &frames, &group_name);
     write_compensations(&mut text, robot, &frames, &groups, &number);
     text.push_str(&contacts.text);
-    text.push_str(&footer(robot, &placed, &contacts));
+    text.push_str(&outputs(robot, &placed));
+    write_sensors(&mut text, robot, &placed, |link, frame| {
+        let group = &groups[number[link]];
+        // The ground has the global axes, wherever the root is.
+        let pose = if group.name == "ground" { Motion::identity() } else { group.frame };
+        Mount { body: &group.name, pose, sensor: frames[link] * *frame }
+    });
+    text.push_str(&analysis(robot, &contacts));
     Ok(text)
 }
 
@@ -250,7 +259,11 @@ fn draw(robot: &Robot, groups: &mut [Group], frames: &[Motion], contacts: &Conta
             if own.visuals.is_empty() {
                 continue;
             }
-            let offset = frames[link].relative_to(&frames[group.link]);
+            // The ground has the global axes, wherever the root is.
+            let offset = match group.name.as_str() {
+                "ground" => frames[link],
+                _ => frames[link].relative_to(&group.frame),
+            };
             let is_of_visuals = std::ptr::eq(own.drawn().as_ptr(), own.visuals.as_ptr());
             let touches = |index: usize| {
                 !contacts.are_there() || is_of_visuals && contacts.touches[link].get(index) == Some(&true)
@@ -278,11 +291,8 @@ fn wrong_masses(
         });
         if moments.min() <= 0.0 {
             // The link that has the mass may be one that is fixed to the body.
-            let own = (0..robot.links.len()).find(|&link| {
-                number[link] == number[group.link]
-                    && robot.links[link].inertia.is_some_and(|own| own.mass > 0.0)
-            });
-            let link = &robot.links[own.unwrap_or(group.link)];
+            let has_mass = |link: &&usize| robot.links[**link].inertia.is_some_and(|own| own.mass > 0.0);
+            let link = &robot.links[*group.links.iter().find(has_mass).unwrap_or(&group.link)];
             obstacles.push(format!(
                 "{}link `{}` has the mass {:?} kg, but principal moments of inertia that are not positive, {}: \
                  correct its inertia, for example 2/5 m r² for a ball",
@@ -297,9 +307,10 @@ fn wrong_masses(
     if moving().all(Group::has_mass) || !robot.closures.is_empty() {
         return obstacles;
     }
-    let bodies: Vec<usize> = moving().filter(|group| group.has_mass()).map(|group| group.link).collect();
+    let stops: Vec<bool> =
+        number.iter().map(|group| groups[*group].has_mass() || groups[*group].name == "ground").collect();
     let mut alone = BTreeSet::new();
-    for massless in without_mass(robot, frames, &bodies, options.mimic) {
+    for massless in without_mass(robot, frames, &stops, options.mimic) {
         match massless {
             Massless::Alone(index) if alone.insert(index) => {
                 let (joint, link) = (&robot.joints[index], &robot.links[robot.joints[index].child]);
@@ -354,7 +365,9 @@ fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
     let mut obstacles = Vec::new();
     if robot.is_root_the_world && options.root == Root::Floating {
         obstacles.push(
-            "the root of this description is the world, which cannot move: free bodies must have a <freejoint/>".to_owned(),
+            "the root of this description is the world, which cannot move: bodies that move freely must be free in the \
+             description"
+                .to_owned(),
         );
     }
     if options.unsupported == Unsupported::Refused {
@@ -395,7 +408,7 @@ fn is_at_rest(robot: &Robot) -> bool {
 /// Initial frames and twists of all links, and the link at the root of the group of each.
 fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector6>, Vec<usize>) {
     let count = robot.links.len();
-    let mut frames = vec![Motion::identity(); count];
+    let mut frames = vec![robot.pose; count];
     let mut twists = vec![root; count];
     let mut group_of: Vec<usize> = (0..count).collect();
     for joint in &robot.joints {
@@ -467,7 +480,7 @@ impl Names {
 }
 
 /// A name that can be used in expressions: letters, digits and underscores.
-fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+pub(super) fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let mut free: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
     if !free.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -489,7 +502,11 @@ fn header(robot: &Robot, options: Options, start: &Start, contacts: &Contacts) -
          # Imported from a robot description. Bodies have the frames of its links, with those that are fixed to them.",
         list(&robot.gravity)
     );
-    if options.limits {
+    let has_stops = options.limits
+        && (robot.joints.iter().any(super::RobotJoint::has_stop)
+            || robot.tendons.iter().any(|own| own.range.is_some()));
+    let has_stops = has_stops || robot.ropes.iter().any(|rope| rope.stiffness.is_none());
+    if has_stops {
         text.push_str("\n# Stiffness of stops [N m/rad, N/m], which the description does not specify.");
     }
     for what in omissions(robot, options).into_iter().chain(contacts.notes.iter().cloned()) {
@@ -499,20 +516,23 @@ fn header(robot: &Robot, options: Options, start: &Start, contacts: &Contacts) -
         let _ = write!(text, "\n# {}.", chosen.sentence().escape_debug());
     }
     text.push('\n');
-    let has_stops = options.limits && robot.joints.iter().any(|joint| joint.range.is_some());
-    let has_stops = has_stops || options.limits && robot.tendons.iter().any(|own| own.range.is_some());
-    if has_stops || robot.ropes.iter().any(|rope| rope.stiffness.is_none()) {
+    if has_stops {
         let _ = write!(text, "\n[parameters]\nstop_stiffness = {STOPS:?}\n");
     }
     text
 }
 
-fn footer(robot: &Robot, placed: &[Placed], contacts: &Contacts) -> String {
+/// Outputs of all joints, and of the energy.
+fn outputs(robot: &Robot, placed: &[Placed]) -> String {
     let mut text = String::new();
     for place in robot.joints.iter().zip(placed).filter(|(joint, _)| joint.moves()).map(|(_, place)| place) {
         let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.own);
     }
-    text.push_str("\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\n");
+    text + "\n[outputs.energy]\nkind = \"energy\"\n"
+}
+
+fn analysis(robot: &Robot, contacts: &Contacts) -> String {
+    let mut text = "\n[analysis]\nkind = \"dynamics\"\n".to_owned();
     if contacts.are_there() {
         let _ = write!(text, "scheme = \"backward-euler\"\nstep = {:?}\n", robot.contact_step());
     }
@@ -646,6 +666,16 @@ pub fn omissions(robot: &Robot, options: Options) -> Vec<String> {
     let count = robot.joints.iter().filter(is_omitted).count();
     if count > 0 && options.friction && options.unsupported == Unsupported::LeftOut {
         all.push(format!("friction of ball joints and damping of free joints, of {count} joints"));
+    }
+    let without_range =
+        |joint: &&super::RobotJoint| joint.moves() && joint.range.is_some() && !joint.has_stop();
+    let free: Vec<String> =
+        robot.joints.iter().filter(without_range).map(|joint| format!("`{}`", joint.name)).collect();
+    if !free.is_empty() && options.limits {
+        all.push(format!(
+            "limits with two equal ends, so that these joints move freely: {}",
+            free.join(", ")
+        ));
     }
     let touches = |link: &super::Link| link.visuals.iter().any(|own| own.touch.is_some());
     if !options.contacts && robot.links.iter().any(touches) {

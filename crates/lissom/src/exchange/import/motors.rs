@@ -1,5 +1,6 @@
 //! Motors of a robot: an input for each, and the torque or the force that it exerts.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use lissom_core::number::Written;
@@ -95,6 +96,16 @@ impl Robot {
         };
         self.motors = self.joints.iter().enumerate().filter_map(of).collect();
     }
+
+    /// Reports limits of the speed of joints, which are only written as comments.
+    pub(super) fn note_speed_limits(&mut self) {
+        let joints = match self.joints.iter().filter(|joint| joint.rating.speed.is_some()).count() {
+            0 => return,
+            1 => "1 joint".to_owned(),
+            count => format!("{count} joints"),
+        };
+        self.left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
+    }
 }
 
 /// Inputs and loads of all motors.
@@ -103,35 +114,37 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
         return;
     }
     text.push_str("\n# Motors: an input keeps its value until a program or an event sets it.\n[inputs]\n");
-    let mut names: Vec<String> = Vec::new();
+    let (mut names, mut taken) = (Vec::new(), BTreeSet::new());
     for motor in &robot.motors {
         let mut name = format!("{}_motor", placed[motor.joint].own);
-        while names.contains(&name) {
+        while !taken.insert(name.clone()) {
             name.push('_');
         }
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{name} = {}", Written(motor.start));
         names.push(name);
     }
+    let mut of_joint = BTreeMap::<usize, Vec<usize>>::new();
+    for (number, motor) in robot.motors.iter().enumerate() {
+        of_joint.entry(motor.joint).or_default().push(number);
+    }
     for (number, (motor, name)) in robot.motors.iter().zip(&names).enumerate() {
         let joint = &placed[motor.joint].own;
-        let (kind, key, coordinate) = match robot.joints[motor.joint].freedom {
-            Freedom::Rotation => ("joint_torque", "torque", "angle"),
-            _ => ("joint_force", "force", "displacement"),
+        let (kind, key, coordinate, rate) = match robot.joints[motor.joint].freedom {
+            Freedom::Rotation => ("joint_torque", "torque", "angle", "rate"),
+            _ => ("joint_force", "force", "displacement", "velocity"),
         };
         let law = |motor: &Motor, name: &str| {
-            motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.rate"))
+            motor.law(name, &format!("{joint}.{coordinate}"), &format!("{joint}.{rate}"))
         };
-        let is_shared = |(other, _): &(&Motor, &String)| other.joint == motor.joint;
-        let law = match robot.joints[motor.joint].rating.effort {
-            None => law(motor, name),
+        let law = match (robot.joints[motor.joint].rating.effort, &of_joint[&motor.joint][..]) {
+            (None, _) => law(motor, name),
             // The limits of a joint hold for the sum of its motors, which the first of them exerts.
-            Some(_) if robot.motors[..number].iter().any(|other| other.joint == motor.joint) => continue,
-            effort => {
-                let all = robot.motors.iter().zip(&names).filter(is_shared);
-                let sum: Vec<String> = all.map(|(other, name)| law(other, name)).collect();
+            (effort, all @ [first, ..]) if *first == number => {
+                let sum: Vec<String> = all.iter().map(|&own| law(&robot.motors[own], &names[own])).collect();
                 limited(sum.join(" + ").replace("+ -", "- "), effort)
             }
+            _ => continue,
         };
         let _ = write!(text, "\n[loads.{name}]\nkind = \"{kind}\"\njoint = \"{joint}\"\n{key} = \"{law}\"\n");
     }

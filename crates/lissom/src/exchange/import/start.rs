@@ -1,7 +1,7 @@
 //! Start positions of joints: those that are given, those of followers, and others at their reference value or, where limits
 //! exclude it, at the nearest position within the limits of the joint and of its followers.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::model_text::Options;
 use super::{Pose, Robot, RobotJoint};
@@ -51,35 +51,36 @@ impl Start {
         let mut start = Self { pose: given.clone(), chosen: Vec::new(), obstacles: Vec::new() };
         let known: Vec<&str> =
             robot.joints.iter().filter(|joint| joint.moves()).map(|joint| joint.name.as_str()).collect();
+        let names: BTreeSet<&str> = known.iter().copied().collect();
         let mut unknown: Vec<&String> = given
             .values
             .keys()
             .chain(given.rates.keys())
-            .filter(|name| !known.contains(&name.as_str()))
+            .filter(|name| !names.contains(name.as_str()))
             .collect();
         unknown.dedup();
         start.obstacles.extend(unknown.iter().map(|name| {
             format!("there is no moving joint `{name}`; moving joints are {}", known.join(", "))
         }));
-        let mut leaders = Vec::new();
-        for joint in robot.joints.iter().filter(|joint| joint.moves()) {
-            match leader(robot, joint, options) {
-                Ok(found) => leaders.push((joint, found)),
-                Err(obstacle) => start.obstacles.push(obstacle),
-            }
+        let (leaders, faults) = leaders(robot, options);
+        start.obstacles.extend(faults);
+        // The joints that follow each joint in the end, with itself if it follows none.
+        let mut followers: BTreeMap<usize, Vec<&Following>> = BTreeMap::new();
+        for own in &leaders {
+            followers.entry(own.leader).or_default().push(own);
         }
-        for (joint, _) in leaders.iter().filter(|(joint, (leader, _, _))| joint.name == leader.name) {
-            start.place_leader(joint, &leaders, options);
+        for own in leaders.iter().filter(|own| own.joint == own.leader) {
+            start.place_leader(robot, own.joint, &followers[&own.leader], options);
         }
-        for (joint, (leader, factor, offset)) in
-            leaders.iter().filter(|(joint, (leader, _, _))| joint.name != leader.name)
-        {
-            start.place_follower(joint, leader, (*factor, *offset));
+        for own in leaders.iter().filter(|own| own.joint != own.leader) {
+            start.place_follower(&robot.joints[own.joint], &robot.joints[own.leader], own.relation);
         }
         // Limits of positions that were given, and of their followers.
         for (joint, range) in robot.joints.iter().filter_map(|joint| Some((joint, range(joint, options)?))) {
             let Some(own) = start.pose.values.get(&joint.name) else { continue };
-            let slack = NEAR * (range[1] - range[0]);
+            // Of two ends only one may be infinite.
+            let width = range[1] - range[0];
+            let slack = NEAR * if width.is_finite() { width } else { 1.0 };
             if *own < range[0] - slack || *own > range[1] + slack {
                 start.obstacles.push(format!(
                     "{}joint `{}` starts at {own}, outside of its limits {} … {}: give it another position by `--position`, or \
@@ -94,21 +95,18 @@ impl Start {
         start
     }
 
-    /// The position of a joint that follows no other.
-    fn place_leader(
-        &mut self,
-        joint: &RobotJoint,
-        leaders: &[(&RobotJoint, (&RobotJoint, f64, f64))],
-        options: Options,
-    ) {
+    /// The position of a joint that follows no other, within the limits of all that follow it.
+    fn place_leader(&mut self, robot: &Robot, index: usize, followers: &[&Following], options: Options) {
+        let joint = &robot.joints[index];
         if self.pose.values.contains_key(&joint.name) {
             return;
         }
         let [mut low, mut high] = [f64::NEG_INFINITY, f64::INFINITY];
-        for (follower, (_, factor, offset)) in
-            leaders.iter().filter(|(_, (leader, _, _))| leader.name == joint.name)
-        {
-            let Some(ends) = range(follower, options).filter(|_| *factor != 0.0) else { continue };
+        for own in followers {
+            let (factor, offset) = own.relation;
+            let Some(ends) = range(&robot.joints[own.joint], options).filter(|_| factor != 0.0) else {
+                continue;
+            };
             let [one, other] = ends.map(|end| (end - offset) / factor);
             (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
         }
@@ -157,23 +155,64 @@ fn range(joint: &RobotJoint, options: Options) -> Option<[f64; 2]> {
     joint.range.filter(|_| options.limits && joint.moves())
 }
 
-/// The joint that `joint` follows in the end, with factor and offset; itself if it follows none.
-fn leader<'a>(
-    robot: &'a Robot,
-    joint: &'a RobotJoint,
-    options: Options,
-) -> Result<(&'a RobotJoint, f64, f64), String> {
-    let (mut at, mut factor, mut offset) = (joint, 1.0, 0.0);
-    for _ in 0..=robot.joints.len() {
-        let Some((name, own_factor, own_offset)) = at.follows.as_ref().filter(|_| options.mimic) else {
-            return Ok((at, factor, offset));
+/// The joint that another follows in the end, `leader` = `joint` if it follows none.
+struct Following {
+    joint: usize,
+    leader: usize,
+    /// Factor and offset of the joint's coordinate over that of the leader.
+    relation: (f64, f64),
+}
+
+/// For each moving joint the one that it follows in the end; and faults of those without one.
+fn leaders(robot: &Robot, options: Options) -> (Vec<Following>, Vec<String>) {
+    let moving = || robot.joints.iter().enumerate().filter(|(_, joint)| joint.moves());
+    let mut by_name = BTreeMap::new();
+    moving().for_each(|(index, joint)| _ = by_name.entry(joint.name.as_str()).or_insert(index));
+    let (mut found, mut faults) = (Vec::new(), Vec::new());
+    let mut known: Vec<Option<(usize, f64, f64)>> = vec![None; robot.joints.len()];
+    for (index, joint) in moving() {
+        // Joints from this one to one with a known leader, each with its factor and offset over the next one.
+        let (mut path, mut at) = (Vec::new(), index);
+        let end = loop {
+            if let Some(end) = known[at] {
+                break Ok(end);
+            }
+            let own = &robot.joints[at];
+            let Some((name, factor, offset)) = own.follows.as_ref().filter(|_| options.mimic) else {
+                break Ok((at, 1.0, 0.0));
+            };
+            path.push((at, *factor, *offset));
+            match by_name.get(name.as_str()) {
+                _ if path.len() > robot.joints.len() => {
+                    break Err(format!(
+                        "{}joint `{}` mimics itself, through other joints",
+                        prefix(&joint.source),
+                        joint.name
+                    ));
+                }
+                Some(next) => at = *next,
+                None => {
+                    let source = prefix(&own.source);
+                    break Err(format!(
+                        "{source}joint `{}` mimics `{name}`, which is no moving joint",
+                        own.name
+                    ));
+                }
+            }
         };
-        (factor, offset) = (factor * own_factor, offset + factor * own_offset);
-        at = robot.joints.iter().find(|other| other.name == *name && other.moves()).ok_or_else(|| {
-            format!("{}joint `{}` mimics `{name}`, which is no moving joint", prefix(&at.source), at.name)
-        })?;
+        match end {
+            Ok(mut end) => {
+                known[at] = Some(end);
+                for (joint, factor, offset) in path.into_iter().rev() {
+                    end = (end.0, factor * end.1, offset + factor * end.2);
+                    known[joint] = Some(end);
+                }
+                found.push(Following { joint: index, leader: end.0, relation: (end.1, end.2) });
+            }
+            Err(fault) => faults.push(fault),
+        }
     }
-    Err(format!("{}joint `{}` mimics itself, through other joints", prefix(&joint.source), joint.name))
+    (found, faults)
 }
 
 /// A location before a message.

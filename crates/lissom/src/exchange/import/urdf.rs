@@ -4,11 +4,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lissom_model::output::Shade;
-use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
+use lissom_motion::{Motion, Rotation, Vector3};
 use roxmltree::Node;
 
 use super::visuals::shade;
-use super::xml::{self, children, location};
+use super::xml::{self, Lines, children, location};
 use super::{
     Freedom, ImportError, Link, LinkInertia, MotorRating, Robot, RobotJoint, Visual, VisualShape, from_z,
 };
@@ -30,10 +30,11 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
         let message = format!("this is not URDF: its root is <{}>, not <robot>", root.tag_name().name());
         return Err(ImportError::new(message));
     }
-    let mut notes = Notes { left_out: left_out(root), ..Notes::default() };
+    let mut notes = Notes { left_out: left_out(root), lines: Lines::of(text), ..Notes::default() };
+    let colours = colours(root);
     let mut links = Vec::new();
     for node in children(root, "link") {
-        links.push(link(node, &mut notes.obstacles)?);
+        links.push(link(node, &colours, &mut notes)?);
     }
     let mut numbers = BTreeMap::new();
     for (number, link) in links.iter().enumerate() {
@@ -47,32 +48,12 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     for node in children(root, "joint") {
         joints.push(joint(node, &numbers, &mut notes)?);
     }
-    let Notes { obstacles, mut left_out, planar } = notes;
+    let Notes { obstacles, left_out, planar, .. } = notes;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    let limited = joints.iter().filter(|joint| joint.rating.speed.is_some()).count();
-    if limited > 0 {
-        let joints = if limited == 1 { "1 joint".to_owned() } else { format!("{limited} joints") };
-        left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
-    }
-    let robot = in_order(Robot {
-        name,
-        gravity: GRAVITY,
-        links,
-        is_root_the_world: false,
-        joints,
-        closures: Vec::new(),
-        ropes: Vec::new(),
-        tendons: Vec::new(),
-        contacts: super::ContactRules::default(),
-        compensations: Vec::new(),
-        keyframes: Vec::new(),
-        motors: Vec::new(),
-        left_out,
-        unsupported: Vec::new(),
-        obstacles,
-    })?;
-    let mut robot = with_planar_joints(robot, &planar);
-    fix_massless_ends(&mut robot);
+    let robot = Robot { name, gravity: GRAVITY, links, joints, left_out, obstacles, ..Robot::default() };
+    let mut robot = with_planar_joints(robot.in_order()?, &planar);
+    robot.note_speed_limits();
+    robot.fix_massless_ends();
     robot.motors_by_effort();
     Ok(robot)
 }
@@ -84,6 +65,7 @@ struct Notes {
     left_out: Vec<String>,
     /// Names of planar joints.
     planar: BTreeSet<String>,
+    lines: Lines,
 }
 
 /// Splits planar joints into two displacements in their plane and the rotation about its normal, through links without mass. The
@@ -115,34 +97,6 @@ fn with_planar_joints(mut robot: Robot, planar: &BTreeSet<String>) -> Robot {
     Robot { joints: all, ..robot }
 }
 
-/// Fixes joints that move no mass, such as those of tools and frames of cameras: their motion is no motion of the robot.
-fn fix_massless_ends(robot: &mut Robot) {
-    let mut has_mass: Vec<bool> = robot.links.iter().map(|link| link.inertia.is_some()).collect();
-    for joint in robot.joints.iter().rev() {
-        has_mass[joint.parent] |= has_mass[joint.child];
-    }
-    if !has_mass.first().is_some_and(|has| *has) {
-        return;
-    }
-    let leaders: BTreeSet<String> =
-        robot.joints.iter().filter_map(|joint| Some(joint.follows.as_ref()?.0.clone())).collect();
-    let is_end = |joint: &&mut RobotJoint| {
-        joint.freedom != Freedom::Fixed && !has_mass[joint.child] && !leaders.contains(&joint.name)
-    };
-    let mut names = Vec::new();
-    for joint in robot.joints.iter_mut().filter(is_end) {
-        names.push(format!("`{}`", joint.name));
-        joint.freedom = Freedom::Fixed;
-        (joint.range, joint.follows, joint.rating) = (None, None, MotorRating::default());
-        (joint.damping, joint.friction) = (0.0, 0.0);
-    }
-    if !names.is_empty() {
-        robot
-            .left_out
-            .push(format!("the motion of joints that carry no mass, which are fixed: {}", names.join(", ")));
-    }
-}
-
 /// Contents that are omitted from the model.
 fn left_out(root: Node<'_, '_>) -> Vec<String> {
     let known = ["link", "joint"];
@@ -160,58 +114,6 @@ fn left_out(root: Node<'_, '_>) -> Vec<String> {
         }
     }
     if words.is_empty() { Vec::new() } else { vec![format!("elements: {}", words.join(", "))] }
-}
-
-/// Moves the root to the front and joints after their parent joints.
-fn in_order(robot: Robot) -> Result<Robot, ImportError> {
-    let Robot { links, joints, .. } = &robot;
-    let mut names = BTreeSet::new();
-    let mut carrier: Vec<Option<usize>> = vec![None; links.len()];
-    for (number, joint) in joints.iter().enumerate() {
-        if !names.insert(&joint.name) {
-            return Err(ImportError::new(format!("two joints are called `{}`", joint.name)));
-        }
-        if let Some(other) = carrier[joint.child].replace(number) {
-            let message = format!(
-                "link `{}` is a child of both `{}` and `{}`: a URDF is a tree",
-                links[joint.child].name, joints[other].name, joint.name
-            );
-            return Err(ImportError::new(message));
-        }
-    }
-    let roots: Vec<usize> = (0..links.len()).filter(|&link| carrier[link].is_none()).collect();
-    let [root] = roots[..] else {
-        let named: Vec<&str> = roots.iter().map(|&link| links[link].name.as_str()).collect();
-        let message = match roots.len() {
-            0 => "every link is a child of another one: there is no root".to_owned(),
-            _ => format!("several links have no parent, but only one can be the root: {}", named.join(", ")),
-        };
-        return Err(ImportError::new(message));
-    };
-    let mut order = vec![root];
-    let mut sorted = Vec::new();
-    let mut next = 0;
-    while let Some(&parent) = order.get(next) {
-        for (number, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.parent == parent) {
-            order.push(joint.child);
-            sorted.push(number);
-        }
-        next += 1;
-    }
-    if order.len() != links.len() {
-        let lost = (0..links.len()).find(|link| !order.contains(link)).map_or("", |link| &links[link].name);
-        return Err(ImportError::new(format!("link `{lost}` is its own ancestor in a loop of joints")));
-    }
-    let mut place = vec![0; links.len()];
-    order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
-    let moved = |joint: &RobotJoint| RobotJoint {
-        parent: place[joint.parent],
-        child: place[joint.child],
-        ..joint.clone()
-    };
-    let joints = sorted.iter().map(|&number| moved(&joints[number])).collect();
-    let links = order.iter().map(|&link| links[link].clone()).collect();
-    Ok(Robot { links, joints, ..robot })
 }
 
 fn child<'a>(node: Node<'a, 'a>, tag: &'static str) -> Option<Node<'a, 'a>> {
@@ -243,25 +145,28 @@ fn required(node: Node<'_, '_>, key: &str) -> Result<f64, ImportError> {
     })
 }
 
-/// A frame from `xyz` and `rpy`: rotations about the fixed axes x, y, z in this order.
+/// A frame from `xyz` and `rpy`.
 fn origin(node: Node<'_, '_>) -> Result<Motion, ImportError> {
     let Some(node) = child(node, "origin") else { return Ok(Motion::identity()) };
-    let [roll, pitch, yaw] = numbers::<3>(node, "rpy")?.unwrap_or_default();
-    let position = Vector3::from(numbers::<3>(node, "xyz")?.unwrap_or_default());
-    let rotation = Rotation::about_axis(&Vector3::z(), yaw)
+    let rotation = fixed_axes(numbers::<3>(node, "rpy")?.unwrap_or_default());
+    Ok(Motion::new(rotation, Vector3::from(numbers::<3>(node, "xyz")?.unwrap_or_default())))
+}
+
+/// Rotations about the fixed axes x, y, z in this order.
+pub(super) fn fixed_axes([roll, pitch, yaw]: [f64; 3]) -> Rotation {
+    Rotation::about_axis(&Vector3::z(), yaw)
         * Rotation::about_axis(&Vector3::y(), pitch)
-        * Rotation::about_axis(&Vector3::x(), roll);
-    Ok(Motion::new(rotation, position))
+        * Rotation::about_axis(&Vector3::x(), roll)
 }
 
 /// A link; what is wrong with it becomes an obstacle.
-fn link(node: Node<'_, '_>, obstacles: &mut Vec<String>) -> Result<Link, ImportError> {
+fn link<'a>(node: Node<'a, 'a>, colours: &Colours<'a>, notes: &mut Notes) -> Result<Link, ImportError> {
     let name = name(node)?;
-    let mut keep = |error: ImportError| obstacles.push(error.message);
+    let mut keep = |error: ImportError| notes.obstacles.push(error.message);
     let mut shapes = |tag: &'static str| -> Vec<Visual> {
         children(node, tag)
             .filter_map(|own| {
-                visual(own, &name).unwrap_or_else(|error| {
+                visual(own, &name, colours).unwrap_or_else(|error| {
                     keep(error);
                     None
                 })
@@ -273,7 +178,7 @@ fn link(node: Node<'_, '_>, obstacles: &mut Vec<String>) -> Result<Link, ImportE
         keep(error);
         None
     });
-    Ok(Link { visuals, collisions, ..Link::new(name, inertia, location(node)) })
+    Ok(Link { visuals, collisions, ..Link::new(name, inertia, notes.lines.location(node)) })
 }
 
 fn inertia(node: Node<'_, '_>, name: &str) -> Result<Option<LinkInertia>, ImportError> {
@@ -292,18 +197,11 @@ fn inertia(node: Node<'_, '_>, name: &str) -> Result<Option<LinkInertia>, Import
     if mass < 0.0 {
         return Err(fault(format!("its mass is negative, {mass} kg")));
     }
-    let frame = origin(inertial)?;
-    let turn = frame.rotation.matrix();
-    let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    if mass == 0.0 && own.iter().all(|value| *value == 0.0) {
-        return Ok(None);
-    }
-    let inertia = turn * own * turn.transpose();
-    Ok(Some(LinkInertia { mass, centre: frame.position, inertia }))
+    Ok(LinkInertia::placed(mass, [xx, yy, zz, xy, xz, yz], &origin(inertial)?))
 }
 
 /// What is drawn of a link; none for a geometry that the format does not define.
-fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError> {
+fn visual<'a>(node: Node<'a, 'a>, link: &str, colours: &Colours<'a>) -> Result<Option<Visual>, ImportError> {
     let Some(geometry) = child(node, "geometry") else {
         let tag = node.tag_name().name();
         return Err(ImportError::new(format!(
@@ -339,19 +237,27 @@ fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError>
             "link `{link}`: the shape of its <visual> has a length that is not positive"
         )));
     }
-    Ok(Some(Visual { shape, origin: origin(node)?, touch: None, name: None, colour: colour(node)? }))
+    Ok(Some(Visual { shape, origin: origin(node)?, touch: None, name: None, colour: colour(node, colours)? }))
+}
+
+/// Elements `<color>` of materials by name, which shapes elsewhere refer to.
+type Colours<'a> = BTreeMap<Option<&'a str>, Node<'a, 'a>>;
+
+/// The first colour of each material of a description.
+fn colours<'a>(root: Node<'a, 'a>) -> Colours<'a> {
+    let mut colours = Colours::new();
+    for material in root.descendants().filter(|own| own.has_tag_name("material")) {
+        if let Some(own) = child(material, "color") {
+            colours.entry(material.attribute("name")).or_insert(own);
+        }
+    }
+    colours
 }
 
 /// The colour of a shape: that of its material, which may be another element's of the same name.
-fn colour(node: Node<'_, '_>) -> Result<Option<Shade>, ImportError> {
+fn colour<'a>(node: Node<'a, 'a>, colours: &Colours<'a>) -> Result<Option<Shade>, ImportError> {
     let Some(material) = child(node, "material") else { return Ok(None) };
-    let is_same = |own: &Node<'_, '_>| {
-        own.has_tag_name("material")
-            && own.attribute("name") == material.attribute("name")
-            && child(*own, "color").is_some()
-    };
-    let own = child(material, "color");
-    let own = own.or_else(|| child(node.document().descendants().find(is_same)?, "color"));
+    let own = child(material, "color").or_else(|| colours.get(&material.attribute("name")).copied());
     Ok(own.map_or(Ok(None), |own| numbers::<4>(own, "rgba"))?.map(shade))
 }
 
@@ -382,7 +288,7 @@ fn moving(
     [parent, child_link]: [usize; 2],
     notes: &mut Notes,
 ) -> Result<RobotJoint, ImportError> {
-    let source = location(node);
+    let source = notes.lines.location(node);
     let fault = |message: String| ImportError::new(format!("{source}: joint `{name}`: {message}"));
     let kind = node.attribute("type").ok_or_else(|| fault("it has no `type`".to_owned()))?;
     let freedom = match kind {

@@ -168,7 +168,7 @@ pub(super) fn shade([red, green, blue, _]: [f64; 4]) -> Shade {
 
 /// The file of a mesh.
 fn found(name: &str, around: &Path) -> Option<PathBuf> {
-    let candidates: Vec<PathBuf> = match name.strip_prefix("package://") {
+    let candidates: Vec<PathBuf> = match name.strip_prefix("package://").or(name.strip_prefix("model://")) {
         // The package is a folder around the description, or beside it.
         Some(inside) => {
             let own = inside.split_once('/').map_or("", |(_, own)| own);

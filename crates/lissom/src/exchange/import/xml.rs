@@ -92,6 +92,21 @@ pub(super) fn location(node: Node<'_, '_>) -> String {
     }
 }
 
+/// Where the lines of a text begin: for the locations of all its elements, without a scan of the text for each.
+#[derive(Default)]
+pub(super) struct Lines(Vec<usize>);
+
+impl Lines {
+    pub(super) fn of(text: &str) -> Self {
+        Self(text.match_indices('\n').map(|(at, _)| at).collect())
+    }
+
+    /// Location at which an element of the text begins, such as `line 3`.
+    pub(super) fn location(&self, node: Node<'_, '_>) -> String {
+        format!("line {}", 1 + self.0.partition_point(|at| *at < node.range().start))
+    }
+}
+
 /// The numbers of a text, if all are finite.
 pub(super) fn finite_numbers(text: &str) -> Option<Vec<f64>> {
     let parts: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();

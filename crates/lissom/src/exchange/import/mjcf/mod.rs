@@ -1,5 +1,5 @@
 //! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or computed from shapes, default classes, gravity, contacts,
-//! generated elements. Sensors are omitted; unknown elements that affect the motion are rejected.
+//! generated elements, sensors. Unknown elements that affect the motion are rejected.
 
 mod element;
 mod expand;
@@ -8,6 +8,7 @@ mod geom;
 mod joint;
 mod mesh;
 mod outside;
+mod sensor;
 mod touching;
 mod tree;
 
@@ -24,7 +25,9 @@ use self::outside::Sites;
 use self::tree::{Inertias, Node, Settings};
 use super::model_text::{carried, together};
 use super::xml;
-use super::{ContactRules, Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, WeightCompensation};
+use super::{
+    ContactRules, Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, WeightCompensation, from_z,
+};
 
 /// Elements of a body that are only drawn or measured.
 const SEEN: [&str; 3] = ["site", "camera", "light"];
@@ -61,17 +64,9 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
             gravity: outside::gravity(&root)?,
             links: vec![Link::new("world".to_owned(), None, String::new())],
             is_root_the_world: true,
-            joints: Vec::new(),
-            closures: Vec::new(),
-            ropes: Vec::new(),
-            tendons: Vec::new(),
             contacts: ContactRules { filters_parents: true, ..ContactRules::default() },
-            compensations: Vec::new(),
-            keyframes: Vec::new(),
-            motors: Vec::new(),
-            left_out: Vec::new(),
-            unsupported: Vec::new(),
             obstacles,
+            ..Robot::default()
         },
     };
     for world in root.of("worldbody") {
@@ -86,6 +81,7 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
     robot.left_out.extend(softened.iter().map(|(words, count)| format!("{words} of {count} geoms")));
     outside::set_total_mass(&settings.compiler, &mut robot)?;
     outside::read(&root, &sites, &mut robot);
+    sensor::read(&root, &sites, &mut robot);
     let seen = xml::counted(seen.into_iter());
     if !seen.is_empty() {
         robot.left_out.push(format!("elements: {}", seen.join(", ")));
@@ -114,7 +110,7 @@ struct Content {
     inertial: Option<LinkInertia>,
     geoms: Option<LinkInertia>,
     visuals: Vec<super::Visual>,
-    sites: Vec<(String, Vector3)>,
+    sites: Vec<(String, Motion)>,
 }
 
 /// Context of elements that are read.
@@ -158,11 +154,14 @@ impl Reader {
             tag if SEEN.contains(&tag) => {
                 self.seen.push(tag.to_owned());
                 if let Some(name) = child.name().filter(|_| tag == "site") {
-                    let own = match own.numbers::<6>("fromto")? {
-                        Some([a, b, c, d, e, f]) => 0.5 * Vector3::new(a + d, b + e, c + f),
-                        None => Vector3::from(own.numbers::<3>("pos")?.unwrap_or_default()),
+                    let frame = match own.numbers::<6>("fromto")? {
+                        Some([a, b, c, d, e, f]) => {
+                            let along = frame::direction(own, "fromto", [d - a, e - b, f - c])?;
+                            Motion::new(from_z(&along), 0.5 * Vector3::new(a + d, b + e, c + f))
+                        }
+                        None => frame::frame(own, &child.settings.angles)?,
                     };
-                    content.sites.push((name.to_owned(), place.offset.transform_point(&own)));
+                    content.sites.push((name.to_owned(), place.offset * frame));
                 }
             }
             tag if DEFORMABLE.contains(&tag) => self.robot.unsupported.push(own.words()),
@@ -206,7 +205,7 @@ impl Reader {
     /// Gives what was read of a body to its link.
     fn keep_content(&mut self, link: usize, content: &mut Content) {
         self.robot.links[link].visuals.append(&mut content.visuals);
-        self.sites.extend(content.sites.drain(..).map(|(name, point)| (name, (link, point))));
+        self.sites.extend(content.sites.drain(..).map(|(name, frame)| (name, (link, frame))));
     }
 
     /// Reads the child bodies of link `parent`.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use lissom_motion::Vector3;
+use lissom_motion::{Motion, Vector3};
 
 use super::super::xml::counted;
 use super::super::{Closure, ImportError, JointTendon, Keyframe, Motor, Robot, Rope};
@@ -11,8 +11,8 @@ use super::joint::limits;
 use super::touching;
 use super::tree::Node;
 
-/// Sites by name: the link, and the point in its frame [m].
-pub(super) type Sites = BTreeMap<String, (usize, Vector3)>;
+/// Sites by name: the link, and the frame of the site in it.
+pub(super) type Sites = BTreeMap<String, (usize, Motion)>;
 
 /// Sections that do not affect the motion.
 const SHOWN: [&str; 7] = ["size", "visual", "statistic", "asset", "custom", "sensor", "extension"];
@@ -392,7 +392,7 @@ fn spatial(node: &Node, sites: &Sites, tendon: Springy, robot: &mut Robot) -> Re
     let mut along = Vec::new();
     for own in &node.children {
         let Some(site) = own.attribute("site").filter(|_| own.has_tag("site")) else { return Ok(false) };
-        let found = sites.get(site).copied();
+        let found = sites.get(site).map(|(link, frame)| (*link, frame.position));
         along.push(found.ok_or_else(|| own.element.fault(format!("there is no site `{site}`")))?);
     }
     // Limits pull only; so does a spring that is free of force from the length zero on.

@@ -30,6 +30,7 @@ pub(super) fn of_geom(element: &Element) -> Result<Option<Touch>, ImportError> {
         mixing: element
             .not_negative("solmix")
             .map(|own| if element.text("solmix").is_none() { 1.0 } else { own })?,
+        group: None,
         is_frictionless: element.number("condim", 3.0)? == 1.0,
         law: law(element, [FRICTION, FRICTION], SOLREF, IMPEDANCE)?,
     }))
@@ -103,6 +104,7 @@ pub(super) fn contact(node: &Node, robot: &mut Robot) -> Result<(), ImportError>
                         priority: 0.0,
                         mixing: 1.0,
                         is_frictionless: false,
+                        group: None,
                         law,
                     });
                 }
