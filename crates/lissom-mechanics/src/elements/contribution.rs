@@ -94,7 +94,7 @@ impl Contribution {
     }
 
     /// This contribution for an entry without outputs of its own.
-    pub(crate) fn without_outputs(self) -> Self {
+    pub fn without_outputs(self) -> Self {
         Self { has_outputs: false, ..self }
     }
 

@@ -13,6 +13,7 @@ pub mod force;
 mod force_between;
 pub mod force_law;
 pub mod friction;
+pub mod gear_friction;
 pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;

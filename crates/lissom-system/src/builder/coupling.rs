@@ -1,6 +1,7 @@
 //! Adds drives of coordinates, and relations between coordinates.
 
 use super::Builder;
+use lissom_mechanics::elements::gear_friction::GearFriction;
 use lissom_mechanics::elements::initial_model::Coordinate;
 use lissom_mechanics::joints::coupling::{Coupling, MAX_COUPLED, Relation, RelationPoint};
 use lissom_mechanics::joints::prescribed::Prescribed;
@@ -86,7 +87,8 @@ impl Builder {
             return Err(ParameterError::new("other", "names the same coordinate as `joint`"));
         }
         let start: Vec<f64> = coordinates.iter().map(|&k| self.model.coordinates[k].value).collect();
-        let relation = build(&parameters.declared(kind.parameters), &start)?;
+        let parameters = parameters.declared(kind.parameters);
+        let relation = build(&parameters, &start)?;
         let quantities: Vec<Quantity> =
             coordinates.iter().map(|&k| self.model.coordinates[k].quantity).collect();
         let quantity =
@@ -97,12 +99,22 @@ impl Builder {
                            another equation";
             return Err(ParameterError::new(kind.parameters[0].name, problem));
         }
+        let multiplier = self.multipliers.len();
+        let efficiency = parameters.number_or("efficiency", 1.0)?;
+        if efficiency < 1.0 {
+            let mut unit = vec![0.0; count];
+            unit[0] = 1.0;
+            let moment = relation.jet((0.0, &start), (0.0, &unit))[1] / largest;
+            let law = [efficiency, parameters.number("deflection")?, parameters.number("damping")?];
+            let of_gear = (multiplier, moment);
+            self.add(GearFriction::contribution(&self.model, coordinates[0], of_gear, law).without_outputs());
+        }
         self.constraints.couplings.push(Coupling {
             name: name.to_owned(),
             coordinates: coordinates.to_vec(),
             quantities,
             quantity,
-            multiplier: self.multipliers.len(),
+            multiplier,
             relation,
             scale: 1.0 / largest,
         });

@@ -2,6 +2,7 @@
 
 mod couplings;
 mod driven_records;
+mod gears;
 mod generalized_coordinates;
 mod joint_space;
 mod kinds;
