@@ -98,15 +98,17 @@ diagnostics! {
             time: f64,
             /// What switches.
             what: Subject,
+            /// What to try.
+            hint: &'static str,
         } => "switches-within-step" {
             time: *time,
             subject: what,
             cause: ("step to t = {time} s did not converge, nor did its shortest substeps: {what} switches within it, and the motion \
                     can continue on neither side of \
                     the switch"),
-            remedy: "smooth the jump (`tanh(v/0.01)` instead of `sign(v)`), use a suitable kind, such as friction, or set \
-                `relative_tolerance` instead of `step`, which ends steps where forces switch",
+            remedy: "{hint}",
             meaning: "A force changes its sign at a threshold and drives the motion back to it from both sides.",
+            advice: "Smooth the force, use a kind such as friction, or raise the damping of a contact or stop.",
         }
         /// The estimated error stays above the tolerance however short the step.
         TooInaccurate {
@@ -405,6 +407,12 @@ pub(crate) const MORE_TOLERANT: &str =
 /// What to try when something switches without end.
 pub(crate) const SMOOTHER: &str = "smooth it (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a suitable kind, such \
      as friction";
+/// What to try where a force switches within a step of planned size that has no solution.
+pub(crate) const STEPS_THAT_END_THERE: &str = "smooth the jump (`tanh(v/0.01)` instead of `sign(v)`), use a suitable kind, such as \
+     friction, or set `relative_tolerance` instead of `step`, which ends steps where forces switch";
+/// What to try where a force switches within a step of chosen size that has no solution.
+pub(crate) const SOFTER: &str = "smooth the jump (`tanh(v/0.01)` instead of `sign(v)`), or use a suitable kind, such as friction; raise the \
+     `dissipation` or `damping` of a contact or stop that is touched again and again";
 /// What to try when a step fails while parts touch at several points.
 pub(crate) const FOR_MANY_TOUCHES: &str = "parts touch at several points: try `scheme = \"backward-euler\"` with a `step`, which solves \
      for all touches at once";

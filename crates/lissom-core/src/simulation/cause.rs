@@ -1,7 +1,9 @@
 //! Likely cause of a failed step, from the present state.
 
 use crate::errors::StepError;
-use crate::errors::step_error::{FOR_MANY_TOUCHES, NO_PART_CONVERGES, NO_PART_IS_FINITE};
+use crate::errors::step_error::{
+    FOR_MANY_TOUCHES, NO_PART_CONVERGES, NO_PART_IS_FINITE, SOFTER, STEPS_THAT_END_THERE,
+};
 use crate::judge::{MAX_TURN, degenerate_joint};
 use crate::kinematics::{LOCKED, NodeId, Quantity, Subject};
 use crate::settings::Problem;
@@ -72,7 +74,9 @@ impl Simulation {
             return error;
         }
         if no_part && let Some(what) = self.switching() {
-            return StepError::Switches { time, what };
+            let is_planned = self.settings.control.is_none();
+            let hint = if is_planned { STEPS_THAT_END_THERE } else { SOFTER };
+            return StepError::Switches { time, what, hint };
         }
         match error {
             StepError::NotConverged { time, iterations, correction, worst, hint } => {
