@@ -261,6 +261,24 @@ export class Kinematics {
     return { low: low.map((x) => x - room), high: high.map((x) => x + room), size };
   }
 
+  /** Least and greatest distance over all frames along an axis from a place on the ground to one that slides along it, without turning about others. */
+  slide([base, tip], axis) {
+    const { motion, count } = this;
+    const along = (place) => axis.reduce((sum, x, k) => sum + x * place[k], 0);
+    const shift = (frame) => along(motion.displacements.subarray(3 * (frame * count + tip.node), 3 * (frame * count + tip.node) + 3));
+    const now = this.time;
+    this.set(this.start);
+    const first = along(this.point(tip)) - along(base.position) - shift(0);
+    this.set(now);
+    let [least, most] = [Infinity, -Infinity];
+    for (let frame = 0; frame < motion.frames; frame++) {
+      const place = first + shift(frame);
+      least = Math.min(least, place);
+      most = Math.max(most, place);
+    }
+    return [least, most];
+  }
+
   /** The middle between the outermost nodes, now. */
   middle() {
     return [0, 1, 2].map((k) => {

@@ -64,7 +64,11 @@ export class ModelView {
     this.byKind = { joints: [], springs: [], loads: [] };
     this.selected = null;
     this.field = null;
+    // Symbols have the sizes and directions of the start, whenever they are drawn.
+    const { time, start } = kinematics;
+    kinematics.set(start);
     this.build(choices);
+    kinematics.set(time);
     stage.scene.add(this.group);
   }
 
