@@ -135,7 +135,7 @@ const point = (viewer) => {
     const name = viewer.model?.pick(x, y);
     tip.hidden = !name;
     if (!name) return;
-    tip.textContent = name;
+    tip.textContent = [name, ...viewer.model.coordinatesOf(name).map(([, text]) => text)].join(", ");
     [tip.style.left, tip.style.top] = [`${x}px`, `${y}px`];
   });
   canvas.addEventListener("pointerleave", () => (tip.hidden = true));

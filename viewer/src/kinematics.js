@@ -217,6 +217,16 @@ export class Kinematics {
     multiply(factor * b[0], factor * b[1], factor * b[2], Math.cos(m * half), ...q, a, 0);
   }
 
+  /** A number that is known in all frames, now: straight between two of them. */
+  between(values) {
+    const { times, frames } = this.motion;
+    const frame = Math.min(this.frameAt(this.time), Math.max(frames - 2, 0));
+    const next = Math.min(frame + 1, frames - 1);
+    const duration = times[next] - times[frame];
+    const x = duration > 0 ? Math.min(Math.max((this.time - times[frame]) / duration, 0), 1) : 0;
+    return values[frame] + x * (values[next] - values[frame]);
+  }
+
   /** The place of a point carried by a node, now. */
   point(anchor, out = [0, 0, 0]) {
     const { node, position } = anchor;

@@ -4,6 +4,7 @@ import * as THREE from "three";
 
 import { BeamMesh } from "./beams.js";
 import { BodyMesh, PointMassMesh } from "./bodies.js";
+import { coordinatesOf } from "./coordinates.js";
 import { fields, rangeOf, roundOff } from "./fields.js";
 import { frame } from "./framing.js";
 import { Symbols } from "./joints.js";
@@ -13,6 +14,7 @@ import { CASTERS } from "./shadow.js";
 import { ShellMesh } from "./shells.js";
 import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
+import { spelled } from "./words.js";
 
 const spaced = (kind) => kind.replaceAll("_", " ");
 
@@ -389,6 +391,18 @@ export class ModelView {
     if (part.anchor) return part.anchor;
     if (part.anchors) return part.anchors[1];
     return drawn?.anchor ?? (part.joint ? this.anchorOf(this.keyOf({ of: part.joint, table: "joints" })) : null);
+  }
+
+  /** Coordinates of a joint or drive now, as names and texts; none of other parts and of modes. */
+  coordinatesOf(name) {
+    const known = this.parts.get(name);
+    const { kinematics, scene } = this;
+    if (!known?.part.axes || kinematics.mode) return [];
+    known.coordinates ??= coordinatesOf(known.part, scene.joints, kinematics.motion);
+    return known.coordinates.map(({ name: coordinate, values }) => {
+      const value = kinematics.between(values);
+      return [coordinate, coordinate === "angle" ? `${spelled((180 * value) / Math.PI, 4)}° (${spelled(value, 4)} rad)` : `${spelled(value, 4)} m`];
+    });
   }
 
   /** Draws the paths of points. */

@@ -104,6 +104,10 @@ export class Panel {
         cells.speed.textContent = `${spelled(kinematics.speeds[anchor.node], 4)} m/s`;
       });
     }
+    this.model.coordinatesOf(name).forEach(([coordinate], k) => {
+      const cell = row(coordinate, "");
+      this.cells.push(() => (cell.textContent = this.model.coordinatesOf(name)[k][1]));
+    });
     for (const output of this.outputsOf(name)) {
       for (const { name: column, unit } of plots.valuesOf(output)) {
         const cell = row(column, "");
