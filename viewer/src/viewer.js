@@ -14,7 +14,7 @@ import { Modes } from "./modes.js";
 import { Notices } from "./notices.js";
 import { Panel, element } from "./panel.js";
 import { Player } from "./player.js";
-import { Plots, colours } from "./plots.js";
+import { Plots, colours, rangeShown } from "./plots.js";
 import { Reactions } from "./reactions.js";
 import { SectionDiagram } from "./section_diagram.js";
 import { spectrum } from "./spectrum.js";
@@ -43,6 +43,7 @@ export class Viewer {
   spectrum = spectrum;
   waterfall = waterfall;
   tickLabels = tickLabels;
+  rangeShown = rangeShown;
   readTable = readTable;
 
   constructor() {

@@ -8,6 +8,7 @@ mod curves;
 mod log_plot;
 mod plot;
 mod record;
+mod round_off;
 mod spectrum;
 mod summary;
 mod sweep_plot;
@@ -27,7 +28,7 @@ pub use lissom_drawing::{
     animation,
 };
 pub use log_plot::LogFigure;
-pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves};
+pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves, quantity_of};
 pub use record::{Record, RecordError};
 pub use spectrum::Spectrum;
 pub use summary::Summary;
