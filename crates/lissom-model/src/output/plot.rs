@@ -155,9 +155,14 @@ pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
     figures_of(&record.columns, points, title)
 }
 
-/// The figures of curves: one per output.
+/// The figures of curves: one per output. Round-off is drawn as zero.
 pub fn figures_of_curves(record: &CurveRecord, title: &str) -> Vec<Figure> {
-    figures_of(record.columns(), |column| record.points(column), title)
+    let is_round_off = record.round_off();
+    let points = |column: usize| {
+        let factor = if is_round_off[column] { 0.0 } else { 1.0 };
+        record.points(column).into_iter().map(|(time, value)| (time, factor * value)).collect()
+    };
+    figures_of(record.columns(), points, title)
 }
 
 fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, title: &str) -> Vec<Figure> {

@@ -12,16 +12,9 @@ impl Record {
     /// Which columns are round-off, and are drawn as zero. Expressions and signals are compared with their own unit only,
     /// because they may be differences.
     pub fn round_off(&self) -> Vec<bool> {
-        let most: Vec<f64> = self.values.iter().map(|values| largest(values)).collect();
-        let sizes = Sizes { columns: &self.columns, most: &most, times: &self.times };
-        let is_round_off = |(column, most): (&Column, &f64)| {
-            // Columns without a unit may be anything.
-            let same = if column.unit.is_empty() { 0.0 } else { SAME_UNIT * sizes.of(&column.unit) };
-            let is_expression = column.quantity == column.output;
-            let implied = if is_expression { 0.0 } else { OTHER_UNITS * sizes.implied(&column.unit) };
-            *most <= same.max(implied).max(NOTHING)
-        };
-        self.columns.iter().zip(&most).map(is_round_off).collect()
+        let most: Vec<f64> = self.values.iter().map(|values| largest(values.iter().copied())).collect();
+        let ends = [self.times.first(), self.times.last()].map(|end| end.copied().unwrap_or(0.0));
+        round_off(&self.columns, &most, (ends[1] - ends[0], self.times.len()))
     }
 
     /// Points of a column over time, zero if it is round-off.
@@ -31,16 +24,30 @@ impl Record {
     }
 }
 
+/// Which columns with these largest magnitudes are round-off, with the duration and the number of rows.
+pub(super) fn round_off(columns: &[Column], most: &[f64], (duration, rows): (f64, usize)) -> Vec<bool> {
+    let sizes = Sizes { columns, most, duration, rows };
+    let is_round_off = |(column, most): (&Column, &f64)| {
+        // Columns without a unit may be anything.
+        let same = if column.unit.is_empty() { 0.0 } else { SAME_UNIT * sizes.of(&column.unit) };
+        let is_expression = column.quantity == column.output;
+        let implied = if is_expression { 0.0 } else { OTHER_UNITS * sizes.implied(&column.unit) };
+        *most <= same.max(implied).max(NOTHING)
+    };
+    columns.iter().zip(most).map(is_round_off).collect()
+}
+
 /// Largest magnitude of finite values.
-fn largest(values: &[f64]) -> f64 {
-    values.iter().filter(|value| value.is_finite()).fold(0.0, |most, value| value.abs().max(most))
+pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| value.is_finite()).fold(0.0, |most, value| value.abs().max(most))
 }
 
 /// Largest values of the columns, by unit.
 struct Sizes<'a> {
     columns: &'a [Column],
     most: &'a [f64],
-    times: &'a [f64],
+    duration: f64,
+    rows: usize,
 }
 
 impl Sizes<'_> {
@@ -53,13 +60,11 @@ impl Sizes<'_> {
     fn implied(&self, unit: &str) -> f64 {
         let length = self.of("m");
         let over = |value: f64, divisor: f64| if divisor > 0.0 { value / divisor } else { 0.0 };
-        let rows = self.times.len() as f64;
-        let [first, last] = [self.times.first(), self.times.last()].map(|end| end.copied().unwrap_or(0.0));
-        let per_time = |value: f64| over(value, last - first);
+        let per_time = |value: f64| over(value, self.duration);
         match unit {
             "rad" => 1.0,
             // The round-off of angles differs from row to row.
-            "rad/s" => per_time(rows - 1.0),
+            "rad/s" => per_time(self.rows.saturating_sub(1) as f64),
             "m/s" => per_time(length),
             "m/s²" => per_time(per_time(length)),
             "N" => over(self.of("N m").max(self.of("J")), length),
