@@ -134,7 +134,7 @@ impl Chart {
     /// Panels without any point on the axes are omitted.
     pub fn draw(&self) -> Drawing {
         let frames: Vec<Frame<'_>> = self.panels.iter().filter_map(Frame::of).collect();
-        let (title, title_height) = lines(&self.title, self.width - 2.0 * MARGIN);
+        let (title, title_height) = title_lines(&self.title, TITLE, self.width - 2.0 * MARGIN);
         let line = 1.3 * f64::from(title_height);
         let head = match title.len() {
             0 => MARGIN,
@@ -176,34 +176,32 @@ impl Chart {
     }
 }
 
-/// Lines of a title and their height: one line if it has this width at a legible height, otherwise several, which end between words
-/// and within those that are too long.
-fn lines(title: &str, width: f64) -> (Vec<String>, u32) {
-    let height = fitting(title, TITLE, width);
+/// Lines of a title and their height: one line if it has this width at a legible height up to `height`, otherwise several, which
+/// end between words and within those that are too long.
+pub fn title_lines(title: &str, height: u32, width: f64) -> (Vec<String>, u32) {
+    let height = fitting(title, height, width);
     if title.is_empty() || height >= SMALL_TITLE {
         return (Some(title.to_owned()).filter(|title| !title.is_empty()).into_iter().collect(), height);
     }
     let fits = |words: &str| lettering::width(words, f64::from(SMALL_TITLE)) <= width;
-    let mut lines = vec![String::new()];
+    let (mut lines, mut line) = (Vec::new(), String::new());
     for word in title.split_whitespace() {
-        let line = lines.last_mut().expect("there is a line");
         let longer = format!("{line}{}{word}", if line.is_empty() { "" } else { " " });
         if fits(&longer) {
-            *line = longer;
+            line = longer;
             continue;
         }
         if !line.is_empty() {
-            lines.push(String::new());
+            lines.push(std::mem::take(&mut line));
         }
         for character in word.chars() {
-            let line = lines.last_mut().expect("there is a line");
-            if fits(&format!("{line}{character}")) || line.is_empty() {
-                line.push(character);
-            } else {
-                lines.push(character.to_string());
+            if !line.is_empty() && !fits(&format!("{line}{character}")) {
+                lines.push(std::mem::take(&mut line));
             }
+            line.push(character);
         }
     }
+    lines.push(line);
     (lines, SMALL_TITLE)
 }
 

@@ -25,7 +25,7 @@ pub use curve_record::CurveRecord;
 pub use curves::{CurveError, Over, Plots, Source, plots};
 pub use lissom_drawing::{
     Align, Axis, Chart, Corner, Curve, DepthBuffer, Drawing, DrawingError, Format, Image, Mark, Panel, Shade,
-    animation,
+    animation, title_lines,
 };
 pub use log_plot::LogFigure;
 pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves, quantity_of};

@@ -28,6 +28,8 @@ const SLIDING: [&str; 2] = ["prismatic", "cylindrical"];
 const HALF_SLIDER: f64 = 2.3;
 const RAIL: f64 = 0.4;
 const RAIL_PLATE: [f64; 2] = [2.2, 0.35];
+/// Length of a rail at most, relative to the model: a longer one would make the picture of a vehicle as wide as its travel.
+const LONGEST_RAIL: f64 = 6.0;
 /// Side and thickness of the plate at the end of a spring on the ground, relative to the model.
 const SPRING_PLATE: [f64; 2] = [0.055, 0.009];
 
@@ -354,7 +356,7 @@ impl Geometry {
     }
 
     /// Adds the rail on the ground along which a joint slides over the motion, with a plate at each end, unless the joint does
-    /// not leave its symbol.
+    /// not leave its symbol or travels far.
     fn rail(
         &mut self,
         name: &str,
@@ -368,7 +370,7 @@ impl Geometry {
             .map(slide)
             .fold((0.0_f64, 0.0_f64), |(least, most), place| (least.min(place), most.max(place)));
         let half = HALF_SLIDER * radius;
-        if most.max(-least) < half {
+        if most.max(-least) < half || most - least > LONGEST_RAIL * self.size {
             return;
         }
         let (low, high) = (least - half, most + half);
