@@ -27,7 +27,7 @@ export const connect = (viewer) => {
     $("ortho").setAttribute("aria-pressed", String(stage.isOrthographic));
   };
   on("ortho", "click", ortho);
-  on("fit", "click", () => viewer.model && stage.fit());
+  on("fit", "click", () => viewer.model && viewer.fit());
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => viewer.model && viewer.look(button.dataset.view));
   }
@@ -47,10 +47,7 @@ export const connect = (viewer) => {
   };
   on("cut", "change", cut);
   on("cut-at", "input", cut);
-  const follow = (isWanted) => {
-    viewer.choices.follow = $("follow").checked = isWanted;
-    viewer.isMoved = true;
-  };
+  const follow = (isWanted) => viewer.follow(isWanted ? (viewer.model?.selected ? "part" : "machine") : "");
   on("names", "change", () => {
     viewer.labels.show($("names").checked);
     viewer.isStale = true;
@@ -89,7 +86,7 @@ export const connect = (viewer) => {
     "=": () => player.faster(true),
     l: loop,
     o: ortho,
-    a: () => viewer.model && stage.fit(),
+    a: () => viewer.model && viewer.fit(),
     d: theme,
     c: nextColour,
     f: () => follow(!viewer.choices.follow),
@@ -138,7 +135,7 @@ const point = (viewer) => {
     const name = viewer.model?.pick(x, y);
     tip.hidden = !name;
     if (!name) return;
-    tip.textContent = name;
+    tip.textContent = [name, ...viewer.model.coordinatesOf(name).map(([, text]) => text)].join(", ");
     [tip.style.left, tip.style.top] = [`${x}px`, `${y}px`];
   });
   canvas.addEventListener("pointerleave", () => (tip.hidden = true));

@@ -47,8 +47,8 @@ export const readTable = (text, known = []) => {
     const described = known.find((column) => column.name === name) ?? {};
     const dot = name.lastIndexOf(".");
     const [output, component] = dot < 0 ? [name, ""] : [name.slice(0, dot), name.slice(dot + 1)];
-    const { quantity = "", unit = "", plot = output } = described;
-    return { name, output, component, quantity, unit, plot, values: new Float64Array(rows) };
+    const { quantity = "", unit = "", plot = output, is_round_off: isRoundOff = false } = described;
+    return { name, output, component, quantity, unit, plot, isRoundOff, values: new Float64Array(rows) };
   });
   for (let row = 0; row < rows; row++) {
     const numbers = lines[row + 1].split(",");
@@ -58,13 +58,13 @@ export const readTable = (text, known = []) => {
   return { times, columns: withoutRoundOff(columns) };
 };
 
-/** Columns whose values are round-off beside the largest of their unit, and numbers of no size at all, are zero. */
+/** Columns that are round-off as the program has found, or beside the largest of their unit, and numbers of no size at all, are zero. */
 const withoutRoundOff = (columns) => {
   const largest = ({ values }) => values.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
   const most = new Map();
   for (const column of columns) most.set(column.unit, Math.max(most.get(column.unit) ?? 0, largest(column)));
   for (const column of columns) {
-    if (largest(column) <= Math.max(1e-13 * most.get(column.unit), 1e-30)) column.values.fill(0);
+    if (column.isRoundOff || largest(column) <= Math.max(1e-13 * most.get(column.unit), 1e-30)) column.values.fill(0);
   }
   return columns;
 };

@@ -75,6 +75,30 @@ class Symbol extends Carried {
   }
 }
 
+/** Kinds of joints that slide along their first axis. */
+const SLIDING = ["prismatic", "cylindrical"];
+/** Half length of the symbol of such a joint, width of its rail, and side and thickness of the plates at the ends, in its radii. */
+const [REACH, RAIL, PLATE, THICKNESS] = [2.3, 0.4, 2.2, 0.35];
+
+/** The rail on the ground along which a joint slides over the motion, with a plate at each end; none if it does not leave its symbol. */
+const rail = ({ anchors: [base, tip], axes: [axis] }, kinematics, r, theme) => {
+  const direction = new THREE.Vector3(...axis);
+  const [least, most] = kinematics.slide([base, tip], axis);
+  if (Math.max(-least, most) < REACH * r) return null;
+  const [low, high] = [Math.min(least, 0) - REACH * r, Math.max(most, 0) + REACH * r];
+  const found = new THREE.Group();
+  const add = (sides, place, color) => {
+    const mesh = new THREE.Mesh(new THREE.BoxGeometry(...sides), new THREE.MeshStandardMaterial({ color, roughness: 0.8 }));
+    mesh.position.y = place;
+    found.add(mesh);
+  };
+  add([RAIL * r, high - low, RAIL * r], (low + high) / 2, theme.pin);
+  for (const end of [low, high]) add([PLATE * r, THICKNESS * r, PLATE * r], end, theme.ground);
+  found.position.set(...base.position);
+  found.quaternion.setFromUnitVectors(along, direction);
+  return found;
+};
+
 /** All symbols and the rod of a joint, spring or load. */
 export class Symbols {
   constructor(part, { symbols, rods }, kinematics, size, theme) {
@@ -88,7 +112,10 @@ export class Symbols {
     // What rolls on the ground is no support.
     const isSchematic = first && symbols[0].unit === undefined;
     if (isSchematic && part.axes) first.addAxes(part.axes, theme);
-    if (isSchematic && part.axes && part.anchors?.[0].node === 0) first.addGround(theme);
+    const isOnGround = isSchematic && part.axes && part.anchors?.[0].node === 0;
+    if (isOnGround) first.addGround(theme);
+    const way = isOnGround && SLIDING.includes(part.kind) ? rail(part, kinematics, first.radius, theme) : null;
+    if (way) this.group.add(way);
     const material = new THREE.MeshStandardMaterial({ color: theme.pin, roughness: 0.5, metalness: 0.2 });
     this.rods = rods.map(({ anchors, radius = 0.35 * radiusOf(0, size) }) => {
       const mesh = rod([0, 0, 0], [0, 1, 0], radius, material);

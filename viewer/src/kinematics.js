@@ -217,6 +217,16 @@ export class Kinematics {
     multiply(factor * b[0], factor * b[1], factor * b[2], Math.cos(m * half), ...q, a, 0);
   }
 
+  /** A number that is known in all frames, now: straight between two of them. */
+  between(values) {
+    const { times, frames } = this.motion;
+    const frame = Math.min(this.frameAt(this.time), Math.max(frames - 2, 0));
+    const next = Math.min(frame + 1, frames - 1);
+    const duration = times[next] - times[frame];
+    const x = duration > 0 ? Math.min(Math.max((this.time - times[frame]) / duration, 0), 1) : 0;
+    return values[frame] + x * (values[next] - values[frame]);
+  }
+
   /** The place of a point carried by a node, now. */
   point(anchor, out = [0, 0, 0]) {
     const { node, position } = anchor;
@@ -259,6 +269,24 @@ export class Kinematics {
     // A mode goes a twelfth of the model beyond its state.
     const room = this.mode ? Math.hypot(...high.map((x, k) => x - low[k])) / 12 : 0;
     return { low: low.map((x) => x - room), high: high.map((x) => x + room), size };
+  }
+
+  /** Least and greatest distance over all frames along an axis from a place on the ground to one that slides along it, without turning about others. */
+  slide([base, tip], axis) {
+    const { motion, count } = this;
+    const along = (place) => axis.reduce((sum, x, k) => sum + x * place[k], 0);
+    const shift = (frame) => along(motion.displacements.subarray(3 * (frame * count + tip.node), 3 * (frame * count + tip.node) + 3));
+    const now = this.time;
+    this.set(this.start);
+    const first = along(this.point(tip)) - along(base.position) - shift(0);
+    this.set(now);
+    let [least, most] = [Infinity, -Infinity];
+    for (let frame = 0; frame < motion.frames; frame++) {
+      const place = first + shift(frame);
+      least = Math.min(least, place);
+      most = Math.max(most, place);
+    }
+    return [least, most];
   }
 
   /** The middle between the outermost nodes, now. */

@@ -4,7 +4,9 @@ import * as THREE from "three";
 
 import { BeamMesh } from "./beams.js";
 import { BodyMesh, PointMassMesh } from "./bodies.js";
+import { coordinatesOf } from "./coordinates.js";
 import { fields, rangeOf, roundOff } from "./fields.js";
+import { frame } from "./framing.js";
 import { Symbols } from "./joints.js";
 import { Outline } from "./outline.js";
 import { SectionAxes } from "./section_axes.js";
@@ -12,6 +14,7 @@ import { CASTERS } from "./shadow.js";
 import { ShellMesh } from "./shells.js";
 import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
+import { spelled } from "./words.js";
 
 const spaced = (kind) => kind.replaceAll("_", " ");
 
@@ -63,7 +66,11 @@ export class ModelView {
     this.byKind = { joints: [], springs: [], loads: [] };
     this.selected = null;
     this.field = null;
+    // Symbols have the sizes and directions of the start, whenever they are drawn.
+    const { time, start } = kinematics;
+    kinematics.set(start);
     this.build(choices);
+    kinematics.set(time);
     stage.scene.add(this.group);
   }
 
@@ -306,7 +313,7 @@ export class ModelView {
     }
   }
 
-  /** Points of all that is drawn, with the height of the lowest that casts a shadow, at so many instants of the motion as are cheap. */
+  /** Points of all that is drawn, at so many instants of the motion as are cheap, and which are framed; sets the height of the lowest that casts a shadow. */
   points() {
     const { kinematics } = this;
     const { time } = kinematics;
@@ -315,15 +322,18 @@ export class ModelView {
     this.group.traverse((mesh) => mesh.isMesh && sources.push([mesh, corners(mesh.geometry)]));
     const count = sources.reduce((sum, [, indices]) => sum + indices.length, 0);
     const instants = end > start ? Math.min(Math.max(Math.floor(MAX_POINTS / count), 8), 48, Math.max(motion.frames, 24)) : 1;
-    const found = [];
+    const [found, pieces] = [[], []];
     const at = new THREE.Vector3();
     this.lowest = Infinity;
     for (let k = 0; k < instants; k++) {
       kinematics.set(start + ((end - start) * k) / Math.max(instants - 1, 1));
       for (const drawn of this.moving) drawn.update();
       this.group.updateMatrixWorld(true);
-      for (const [mesh, indices] of sources) {
+      const middle = kinematics.middle();
+      for (const [source, [mesh, indices]] of sources.entries()) {
         if (!isShown(mesh)) continue;
+        const isGround = this.parts.get(mesh.userData.part)?.kind === "ground";
+        pieces.push({ source, middle, isGround, from: found.length, to: found.length + 3 * indices.length });
         const castsShadow = mesh.layers.isEnabled(CASTERS);
         for (const index of indices) {
           at.fromBufferAttribute(mesh.geometry.attributes.position, index).applyMatrix4(mesh.matrixWorld);
@@ -332,8 +342,11 @@ export class ModelView {
         }
       }
     }
+    kinematics.set(start);
+    const first = kinematics.middle();
     kinematics.set(time);
-    return new Float32Array(found.length ? found : [0, 0, 0]);
+    const points = new Float32Array(found.length ? found : [0, 0, 0]);
+    return { points, framed: frame(points, pieces, first) };
   }
 
   /** Outlines a part; none for nothing. */
@@ -378,6 +391,18 @@ export class ModelView {
     if (part.anchor) return part.anchor;
     if (part.anchors) return part.anchors[1];
     return drawn?.anchor ?? (part.joint ? this.anchorOf(this.keyOf({ of: part.joint, table: "joints" })) : null);
+  }
+
+  /** Coordinates of a joint or drive now, as names and texts; none of other parts and of modes. */
+  coordinatesOf(name) {
+    const known = this.parts.get(name);
+    const { kinematics, scene } = this;
+    if (!known?.part.axes || kinematics.mode) return [];
+    known.coordinates ??= coordinatesOf(known.part, scene.joints, kinematics.motion);
+    return known.coordinates.map(({ name: coordinate, values }) => {
+      const value = kinematics.between(values);
+      return [coordinate, coordinate === "angle" ? `${spelled((180 * value) / Math.PI, 4)}° (${spelled(value, 4)} rad)` : `${spelled(value, 4)} m`];
+    });
   }
 
   /** Draws the paths of points. */

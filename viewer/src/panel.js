@@ -8,6 +8,9 @@ export const element = (tag, properties = {}, ...children) => {
   return made;
 };
 
+/** A name that has several lines at its points and underscores where it is long. */
+export const breakable = (name) => name.split(/(?<=[._])/).flatMap((piece, k) => (k ? [element("wbr"), piece] : [piece]));
+
 const vector = (numbers) => numbers.map((x) => spelled(x, 5)).join("  ");
 
 /** What a part is called: solids are drawn as shells. */
@@ -71,7 +74,7 @@ export class Panel {
       ? [...model.parts].map(([key, { name, kind, part, own }]) => {
           const dot = element("i");
           dot.style.background = own ?? "var(--faint)";
-          const item = element("li", { tabIndex: 0 }, dot, element("b", { textContent: name }), element("span", { textContent: wordOf(kind, part) }));
+          const item = element("li", { tabIndex: 0 }, dot, element("b", {}, ...breakable(name)), element("span", { textContent: wordOf(kind, part) }));
           item.dataset.name = key;
           return item;
         })
@@ -104,6 +107,10 @@ export class Panel {
         cells.speed.textContent = `${spelled(kinematics.speeds[anchor.node], 4)} m/s`;
       });
     }
+    this.model.coordinatesOf(name).forEach(([coordinate], k) => {
+      const cell = row(coordinate, "");
+      this.cells.push(() => (cell.textContent = this.model.coordinatesOf(name)[k][1]));
+    });
     for (const output of this.outputsOf(name)) {
       for (const { name: column, unit } of plots.valuesOf(output)) {
         const cell = row(column, "");

@@ -2,7 +2,7 @@
 
 import uPlot from "uplot";
 
-import { element } from "./panel.js";
+import { breakable, element } from "./panel.js";
 import { isPlace, orbit } from "./orbit.js";
 import { PathPlot } from "./path.js";
 import { spectrum } from "./spectrum.js";
@@ -17,6 +17,18 @@ const css = (name) => getComputedStyle(document.documentElement).getPropertyValu
 
 /** Room for the labels of an axis. */
 const roomOf = (_, labels) => 20 + 7 * Math.max(...(labels ?? []).map((label) => label.length), 3);
+
+/** Largest extent of values that are constant except for round-off, relative to their size. */
+const ROUND_OFF = 1e-10;
+
+/** Range of an axis from the extremes of its values: the round-off of a constant is not enlarged. */
+export const rangeShown = (_, low, high) => {
+  if (low == null) return [null, null];
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  if (high - low > ROUND_OFF * size) return uPlot.rangeNum(low, high, 0.1, true);
+  const room = size > 0 ? 0.1 * size : 1;
+  return [low - room, high + room];
+};
 
 /** Columns of one plot and one unit belong together. */
 const groups = (columns) => {
@@ -35,7 +47,10 @@ const WATERFALL = "waterfall ";
 /** Interval in which values beside the curves change [ms]. */
 const LEGIBLE = 100;
 
-const keyOf = ([{ plot, unit }]) => `${plot}\n${unit}`;
+/** Positions of contacts, beside which gaps would be a straight line, have a plot of their own, as in static plots. */
+const CENTRE = "centre of contact";
+
+const keyOf = ([{ plot, unit, quantity }]) => `${plot}\n${unit}${quantity === CENTRE ? `\n${CENTRE}` : ""}`;
 
 /** Quantities of columns, each once. */
 const quantitiesOf = (columns) => [...new Set(columns.map(({ quantity }) => quantity))].filter(Boolean).join(", ");
@@ -156,8 +171,8 @@ export class Plots {
     const heading = document.createElement("h3");
     const isOne = columns.length === 1 && component;
     const measured = quantity && quantity !== name ? ` ${isOne ? component : quantity}` : "";
-    // The unit has an element of its own, which is never shortened.
-    heading.append(element("b", { textContent: name, title: name }), element("span", { textContent: measured }), element("span", { className: "unit", textContent: unit ? `[${unit}]` : "" }));
+    // Names may be long: they have as many lines as they need.
+    heading.append(element("div", {}, element("b", {}, ...breakable(name)), element("span", { textContent: measured }), element("span", { className: "unit", textContent: unit ? ` [${unit}]` : "" })));
     const key = keyOf(columns);
     const button = (textContent, title, action) => {
       const made = element("button", { type: "button", textContent, title, ariaLabel: `${title}: ${name}` });
@@ -208,7 +223,7 @@ export class Plots {
       width: 300,
       height: 170,
       cursor: { sync: { key: "time", setSeries: false }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
-      scales: { x: { time: false } },
+      scales: { x: { time: false }, y: { range: rangeShown } },
       axes: [
         { ...axis, size: 28, space: 64, values: (_, ticks) => tickLabels(ticks) },
         { ...axis, size: roomOf, values: (_, ticks) => tickLabels(ticks) },

@@ -20,6 +20,28 @@ class Coil extends THREE.Curve {
   }
 }
 
+/** Side and thickness of the plate at an end on the ground, relative to the model. */
+const PLATE = [0.055, 0.009];
+
+/** Plates at the ends on the ground, across the spring at the start. */
+const plates = (ends, kinematics, size, theme, name) => {
+  const found = new THREE.Group();
+  ends.forEach((anchor, k) => {
+    if (anchor.node !== 0) return;
+    const [at, other] = [anchor, ends[1 - k]].map((end) => new THREE.Vector3(...kinematics.point(end)));
+    const outward = at.clone().sub(other);
+    if (outward.length() > 0) outward.normalize();
+    else outward.copy(theme.up).negate();
+    const [side, thickness] = PLATE.map((share) => share * size);
+    const plate = new THREE.Mesh(new THREE.BoxGeometry(side, thickness, side), new THREE.MeshStandardMaterial({ color: theme.ground, roughness: 0.9 }));
+    plate.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), outward);
+    plate.position.copy(at).addScaledVector(outward, thickness / 2);
+    plate.userData.part = name;
+    found.add(plate);
+  });
+  return found;
+};
+
 export class SpringMesh {
   constructor(spring, kinematics, size, theme) {
     this.name = spring.name;
@@ -39,12 +61,13 @@ export class SpringMesh {
       places.setY(k, centre.y + (places.getY(k) - centre.y) / length);
     }
     geometry.computeVertexNormals();
-    this.mesh = new THREE.Mesh(geometry, this.material);
-    this.mesh.frustumCulled = false;
-    this.mesh.userData.part = spring.name;
+    this.coil = new THREE.Mesh(geometry, this.material);
+    this.coil.frustumCulled = false;
+    this.coil.userData.part = spring.name;
+    this.mesh = new THREE.Group().add(this.coil, plates(this.ends, kinematics, size, theme, spring.name));
   }
   update() {
-    placeRod(this.mesh, this.kinematics.point(this.ends[0]), this.kinematics.point(this.ends[1]));
+    placeRod(this.coil, this.kinematics.point(this.ends[0]), this.kinematics.point(this.ends[1]));
   }
 }
 
@@ -65,7 +88,7 @@ export class CableMesh {
     const geometry = new THREE.CylinderGeometry(this.radius, this.radius, 1, 8);
     this.pieces = Array.from({ length: POINTS - 1 }, () => new THREE.Mesh(geometry, this.material));
     for (const piece of this.pieces) piece.userData.part = spring.name;
-    this.mesh.add(...this.pieces);
+    this.mesh.add(...this.pieces, plates(this.ends, kinematics, size, theme, spring.name));
   }
 
   update() {

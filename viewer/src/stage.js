@@ -52,6 +52,9 @@ export class Stage {
     this.filled = FILLED;
     /** Points of the drawn geometry over the motion, one after the other. */
     this.points = new Float32Array();
+    /** Those that `look` brings into the picture, and how far the camera has gone with the machine since the start. */
+    this.framed = this.points;
+    this.gone = new THREE.Vector3();
     /** Whether the camera is where `look` has put it, so that it follows the size of the window. */
     this.isFramed = false;
     this.up = new THREE.Vector3(0, 0, 1);
@@ -128,9 +131,10 @@ export class Stage {
     this.up.copy(up);
   }
 
-  /** Puts ground and axes around the points of the drawn geometry, of which the lowest part has this height. */
-  surround(points, lowest, theme) {
+  /** Puts ground and axes around the points of the drawn geometry, of which some are framed and the lowest part has this height. */
+  surround(points, framed, lowest, theme) {
     this.points = points;
+    this.framed = framed;
     this.lowestPart = lowest;
     const box = new THREE.Box3();
     const at = new THREE.Vector3();
@@ -154,13 +158,13 @@ export class Stage {
     return place;
   }
 
-  /** Whether some of the drawn geometry is out of the picture, or it fills less than a third of it. */
+  /** Whether some of what is framed is out of the picture, or it fills less than a third of it. */
   isPoorlyFramed() {
     this.camera.updateMatrixWorld();
     const seen = new THREE.Vector3();
     const [low, high] = [new THREE.Vector2(Infinity, Infinity), new THREE.Vector2(-Infinity, -Infinity)];
-    for (let k = 0; k < this.points.length; k += 3) {
-      seen.fromArray(this.points, k).project(this.camera);
+    for (let k = 0; k < this.framed.length; k += 3) {
+      seen.fromArray(this.framed, k).add(this.gone).project(this.camera);
       low.min(seen);
       high.max(seen);
     }
@@ -189,7 +193,7 @@ export class Stage {
     return of(0) + of(1) + of(2);
   }
 
-  /** Looks along `direction`, with all points of `surroundings` in the picture. */
+  /** Looks along `direction`, with all that is framed in the picture. */
   look(direction, up = this.up) {
     this.direction = direction;
     this.upward = up;
@@ -203,7 +207,7 @@ export class Stage {
     // A point at depth w toward the camera is in the picture if r + slope w and slope w - r do not exceed its edges.
     const reach = [-Infinity, -Infinity, -Infinity, -Infinity];
     let [near, far] = [-Infinity, Infinity];
-    const { points } = this;
+    const points = this.framed;
     for (let k = 0; k < points.length; k += 3) {
       const [x, y, z] = [points[k], points[k + 1], points[k + 2]];
       const along = (axis) => axis.x * x + axis.y * y + axis.z * z;
@@ -222,6 +226,7 @@ export class Stage {
     const distance = Math.max(half(0) / slopes[0], half(1) / slopes[1], 1e-3 * this.size) + (this.isOrthographic ? middle : 0);
     const eye = new THREE.Vector3().addScaledVector(away, distance);
     [right, above].forEach((axis, k) => eye.addScaledVector(axis, (reach[2 * k] - reach[2 * k + 1]) / 2));
+    eye.add(this.gone);
     this.controls.target.copy(eye).addScaledVector(away, middle - distance);
     this.camera.position.copy(eye);
     this.camera.zoom = 1;
@@ -231,8 +236,15 @@ export class Stage {
     this.changed();
   }
 
-  /** Brings all into the picture from the direction in which the camera looks. */
+  /** Brings the whole motion into the picture, from the direction in which the camera looks. */
   fit() {
+    this.framed = this.points;
+    this.gone.set(0, 0, 0);
+    this.reframe();
+  }
+
+  /** Brings what is framed into the picture, from the direction in which the camera looks. */
+  reframe() {
     const away = this.camera.position.clone().sub(this.controls.target);
     this.look(away.toArray(), this.camera.up.clone());
   }
@@ -240,7 +252,9 @@ export class Stage {
   /** Writes position, target and upward direction of the camera into the address, so that a link shows the same picture. */
   linkCamera() {
     const { position, up, zoom } = this.camera;
-    const numbers = [position, this.controls.target, up].flatMap((vector) => vector.toArray().map((x) => Number(x.toPrecision(6))));
+    // As at the start, where the page begins.
+    const [eye, target] = [position, this.controls.target].map((place) => place.clone().sub(this.gone));
+    const numbers = [eye, target, up].flatMap((vector) => vector.toArray().map((x) => Number(x.toPrecision(6))));
     const others = location.hash.slice(1).split("&").filter((word) => word && !word.startsWith("camera="));
     history.replaceState(null, "", `#${[...others, `camera=${[...numbers, Number(zoom.toPrecision(5)), Number(this.isOrthographic)].join(",")}`].join("&")}`);
   }
@@ -261,11 +275,21 @@ export class Stage {
     this.changed();
   }
 
-  /** Moves target and camera together. */
+  /** Moves target and camera together, to this target. */
   follow(place) {
-    const shift = new THREE.Vector3(...place).sub(this.controls.target);
-    this.controls.target.add(shift);
-    this.camera.position.add(shift);
+    this.shift(new THREE.Vector3(...place).sub(this.controls.target));
+  }
+
+  /** Goes with the machine, which is so far from its start. */
+  accompany(way) {
+    const gone = new THREE.Vector3(...way);
+    this.shift(gone.clone().sub(this.gone));
+    this.gone.copy(gone);
+  }
+
+  shift(way) {
+    this.controls.target.add(way);
+    this.camera.position.add(way);
     this.camera.lookAt(this.controls.target);
   }
 

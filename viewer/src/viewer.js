@@ -5,6 +5,7 @@ import * as THREE from "three";
 import { CampbellDiagram } from "./campbell.js";
 import { decodeHistory, decodeMotion, readTable } from "./decode.js";
 import { fields } from "./fields.js";
+import { sides } from "./framing.js";
 import { Kinematics } from "./kinematics.js";
 import { Labels } from "./labels.js";
 import { Legend } from "./legend.js";
@@ -13,7 +14,7 @@ import { Modes } from "./modes.js";
 import { Notices } from "./notices.js";
 import { Panel, element } from "./panel.js";
 import { Player } from "./player.js";
-import { Plots, colours } from "./plots.js";
+import { Plots, colours, rangeShown } from "./plots.js";
 import { Reactions } from "./reactions.js";
 import { SectionDiagram } from "./section_diagram.js";
 import { spectrum } from "./spectrum.js";
@@ -42,6 +43,7 @@ export class Viewer {
   spectrum = spectrum;
   waterfall = waterfall;
   tickLabels = tickLabels;
+  rangeShown = rangeShown;
   readTable = readTable;
 
   constructor() {
@@ -62,7 +64,7 @@ export class Viewer {
     this.shown = new Notices($("notices"), (notice) => this.point(notice));
     this.modes = new Modes($("modes"), (index) => this.showMode(index));
     this.legend = new Legend($("legend"), (covered) => this.cover(covered));
-    this.choices = { bodyShape: "box", colour: "part", covered: "run", component: 5, styles: new Map(), reactions: false, magnification: 1, against: "", traces: false, follow: false };
+    this.choices = { bodyShape: "box", colour: "part", covered: "run", component: 5, styles: new Map(), reactions: false, magnification: 1, against: "", traces: false, follow: "" };
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.chosenTheme() || this.setTheme(this.storedTheme()));
     requestAnimationFrame((now) => this.draw(now));
   }
@@ -135,11 +137,15 @@ export class Viewer {
     const selected = keeps ? this.model?.selected : null;
     this.rebuild();
     if (this.kinematics && !keeps) {
+      this.follow(this.framed.travels ? "machine" : "");
       this.firstLook();
       this.stage.lookAsLinked(location.hash);
     }
-    if (this.kinematics && keeps && this.stage.isPoorlyFramed()) this.stage.fit();
     this.player.load(...span, isStatic, keeps);
+    if (this.kinematics && keeps) {
+      this.move();
+      if (this.stage.isPoorlyFramed()) this.stage.reframe();
+    }
     if (this.modes.current) this.player.speed = 0.5;
     this.offerColours();
     this.select(selected);
@@ -264,7 +270,10 @@ export class Viewer {
     if (this.kinematics) {
       this.stage.measure(this.extent(), this.upward());
       this.model = new ModelView(this.result.scene, this.kinematics, this.stage, this.theme, this.choices);
-      this.stage.surround(this.model.points(), this.model.lowest, this.theme);
+      const { points, framed } = this.model.points();
+      this.framed = framed;
+      this.stage.surround(points, framed.points, this.model.lowest, this.theme);
+      if (framed.travels && this.choices.follow !== "machine") this.stage.framed = points;
       this.stage.grid.visible = $("grid").checked;
       for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
       this.reactions = new Reactions(this.model, this.history, this.kinematics, this.stage.size, this.theme.load);
@@ -319,9 +328,9 @@ export class Viewer {
   /** Plane motion is looked at almost from the front, all other motion and shells at an angle. */
   firstLook() {
     if (this.result.scene.shells?.length || this.result.scene.elastic_solids?.length) return this.look("iso");
-    const { low, high, extent } = this.stage;
-    const thickness = [0, 1, 2].map((k) => high.getComponent(k) - low.getComponent(k));
+    const thickness = sides(this.stage.framed);
     const k = thickness.indexOf(Math.min(...thickness));
+    const extent = this.framed.travels ? Math.hypot(...thickness) : this.stage.extent;
     if (thickness[k] > 0.12 * extent || this.kinematics.turnsOutOfPlane(k)) return this.look("iso");
     if (this.stage.up.getComponent(k) !== 0) return this.look("top");
     this.stage.look(this.oriented(k === 0 ? [1, -0.32, 0.24] : [0.28, -1, 0.24]));
@@ -331,6 +340,28 @@ export class Viewer {
   oriented(direction) {
     const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), this.stage.up);
     return new THREE.Vector3(...direction).applyQuaternion(turn).toArray();
+  }
+
+  /** How far the middle of the machine is from where it was at the start. */
+  way() {
+    const { kinematics, framed } = this;
+    return kinematics.middle().map((x, k) => x - framed.start[k]);
+  }
+
+  /** Lets the camera go with the selected `part` or with the whole `machine`; with neither it stays. */
+  follow(what) {
+    const { stage, framed } = this;
+    this.choices.follow = what;
+    $("follow").checked = what !== "";
+    stage.gone.set(...(what === "machine" && this.kinematics ? this.way() : [0, 0, 0]));
+    if (framed?.travels) stage.framed = what === "machine" ? framed.points : stage.points;
+    this.isMoved = true;
+  }
+
+  /** Brings the whole motion into the picture. */
+  fit() {
+    this.follow("");
+    this.stage.fit();
   }
 
   look(name) {
@@ -465,10 +496,9 @@ export class Viewer {
       this.ghost.update();
     }
     if (this.choices.covered === "instant") this.legend.show(this.model?.shownField());
-    if (this.choices.follow && this.model?.selected) {
-      const anchor = this.model.anchorOf(this.model.selected);
-      if (anchor) this.stage.follow(this.kinematics.point(anchor));
-    }
+    if (this.choices.follow === "machine") this.stage.accompany(this.way());
+    const followed = this.choices.follow === "part" && this.model?.selected && this.model.anchorOf(this.model.selected);
+    if (followed) this.stage.follow(this.kinematics.point(followed));
     this.plots.setTime(time);
     this.reactions?.update(this.plots.row());
     this.panel.update();

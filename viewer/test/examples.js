@@ -17,10 +17,14 @@ const coverage = (page) =>
     const pen = copy.getContext("2d", { willReadFrequently: true });
     const edges = [width, height, -1, -1];
     [stage.grid.visible, stage.axes.visible] = [false, false];
+    // Ground that is larger than the motion is not framed, and the camera goes with a machine that travels far.
+    const grounds = stage.framed === stage.points ? [] : [...model.parts.values()].filter(({ kind }) => kind === "ground");
+    for (const { object } of grounds) object.visible = false;
     const instants = player.end > player.start ? 9 : 1;
     for (let k = 0; k < instants; k++) {
       kinematics.set(player.start + ((player.end - player.start) * k) / 8);
       model.update();
+      if (lissom.choices.follow === "machine") stage.accompany(lissom.way());
       stage.render();
       pen.drawImage(stage.renderer.domElement, 0, 0, width, height);
       const { data } = pen.getImageData(0, 0, width, height);
@@ -35,6 +39,7 @@ const coverage = (page) =>
       }
     }
     [stage.grid.visible, stage.axes.visible] = [true, true];
+    for (const { object } of grounds) object.visible = true;
     player.seek(time);
     lissom.move();
     const [left, top, right, bottom] = edges;

@@ -3,7 +3,6 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { chmodSync, mkdirSync, writeFileSync } from "node:fs";
-import { createServer } from "node:net";
 import { join } from "node:path";
 
 const MODEL = `lissom = 1
@@ -30,15 +29,6 @@ end = 0.5
 step = 0.01
 `;
 
-const freePort = () =>
-  new Promise((found) => {
-    const server = createServer();
-    server.listen(0, "127.0.0.1", () => {
-      const { port } = server.address();
-      server.close(() => found(port));
-    });
-  });
-
 export const live = ({ program, folder }) => ({
   "two tabs agree, and a program that is started again": async (browser) => {
     const model = join(folder, "tabs.toml");
@@ -46,9 +36,8 @@ export const live = ({ program, folder }) => ({
     const runtime = join(folder, "runtime");
     mkdirSync(runtime, { recursive: true });
     chmodSync(runtime, 0o700);
-    const port = await freePort();
     const start = async () => {
-      const child = spawn(program, ["live", model, "--port", String(port)], { stdio: ["ignore", "pipe", "inherit"], env: { ...process.env, XDG_RUNTIME_DIR: runtime } });
+      const child = spawn(program, ["live", model], { stdio: ["ignore", "pipe", "inherit"], env: { ...process.env, XDG_RUNTIME_DIR: runtime } });
       const address = await new Promise((found) => child.stdout.once("data", (data) => found(String(data).trim())));
       return { child, address };
     };
@@ -73,6 +62,10 @@ export const live = ({ program, folder }) => ({
       const again = await start();
       child = again.child;
       assert.equal(again.address, address);
+      // While it runs, another program for the same model has another port.
+      const other = await start();
+      assert.notEqual(new URL(other.address).port, new URL(address).port);
+      await ended(other.child);
       await first.waitForFunction(() => lissom.player.end === 0.7, null, { timeout: 60000 });
       assert.ok(await first.locator("#lost").isHidden());
       assert.ok(await first.locator("[data-parameter=mass]").isEnabled());

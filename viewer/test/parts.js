@@ -43,6 +43,53 @@ export const parts = ({ root, folder, view, open }) => ({
     assert.deepEqual([...bytes.subarray(1, 4)].map((code) => String.fromCharCode(code)).join(""), "PNG");
     assert.deepEqual(complaints(), []);
   },
+  "a selected joint shows its coordinates, and a slide has a rail": async (browser) => {
+    const text = readFileSync(join(root, "examples/slider-crank-elastic.toml"), "utf8").replaceAll('"parts/', `"${join(root, "examples/parts")}/`);
+    const outputs = ["main_bearing", "cylinder"].map((joint) => `[outputs.of_${joint}]\nkind = "relative"\nof = "${joint}"\n`).join("");
+    writeFileSync(join(folder, "coordinates.toml"), text.replace("[analysis]", `${outputs}[analysis]`));
+    const { page, complaints } = await open(browser, join(view(join(folder, "coordinates.toml")), "view.html"));
+    for (const [joint, coordinate, column] of [["main_bearing", "angle", "of_main_bearing.angle"], ["cylinder", "displacement", "of_cylinder.displacement"]]) {
+      for (const row of [0, 0.3, 0.6, 1]) {
+        const [texts, value] = await page.evaluate(([joint, share, column]) => {
+          const { times, columns } = lissom.history;
+          const row = Math.round(share * (times.length - 1));
+          lissom.select(joint);
+          lissom.player.seek(times[row]);
+          lissom.move();
+          return [lissom.model.coordinatesOf(joint), columns.find(({ name }) => name === column).values[row]];
+        }, [joint, row, column]);
+        assert.equal(texts[0][0], coordinate);
+        const numbers = texts[0][1].match(/-?[\d.e-]+/g).map(Number);
+        const shown = coordinate === "angle" ? numbers[1] : numbers[0];
+        assert.ok(Math.abs(shown - value) < 2e-3 * Math.max(1, Math.abs(value)), `${joint} at ${row}: ${texts[0][1]}, and ${value} recorded`);
+        if (coordinate === "angle") assert.ok(Math.abs(numbers[0] - (180 * value) / Math.PI) < 0.2 * Math.max(1, Math.abs(value)), `${texts[0][1]}`);
+        assert.ok((await page.locator("#selection table").textContent()).includes(texts[0][1]));
+      }
+    }
+    // The rail is as long as the motion of the piston, with the symbol at both ends.
+    const [rail, travel] = await page.evaluate(() => {
+      const { values } = lissom.history.columns.find(({ name }) => name === "of_cylinder.displacement");
+      const lengths = [];
+      lissom.model.parts.get("cylinder").object.traverse(({ geometry }) => lengths.push(geometry?.parameters?.height ?? 0));
+      return [Math.max(...lengths), Math.max(...values, 0) - Math.min(...values, 0)];
+    });
+    assert.ok(rail > travel && rail < 2 * travel, `a rail of ${rail} m for ${travel} m`);
+    assert.deepEqual(complaints(), []);
+  },
+  "plates are at the ends of springs on the ground": async (browser) => {
+    const text = `lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.load]\nmass = 1\ninertia = { box = [0.2, 0.2, 0.2] }\nposition = [0, 0, -1]\n[springs.coil]\nkind = "point"\nbase = "ground"\ntip = "load"\nat_base = [0.5, 0, 0]\nat_tip = [0.5, 0, -1]\nstiffness = 1e3\n[analysis]\nkind = "dynamics"\nend = 0.1\nstep = 0.01\n`;
+    writeFileSync(join(folder, "plates.toml"), text);
+    const { page, complaints } = await open(browser, join(view(join(folder, "plates.toml")), "view.html"));
+    const places = await page.evaluate(() => {
+      const found = [];
+      lissom.model.parts.get("coil").object.traverse((child) => child.geometry?.type === "BoxGeometry" && found.push(child.position.toArray()));
+      return found;
+    });
+    assert.equal(places.length, 1);
+    const [[x, , z]] = places;
+    assert.ok(Math.abs(x - 0.5) < 1e-9 && z > 0 && z < 0.05, JSON.stringify(places));
+    assert.deepEqual(complaints(), []);
+  },
   "forces of contacts and springs are arrows": async (browser) => {
     const shown = async (file, ...set) => {
       const { page, complaints } = await open(browser, join(view(file, ...set), "view.html"));

@@ -75,6 +75,29 @@ export const plots = ({ program, root, folder, view, open }) => ({
     of("dot").x.forEach((x, k) => assert.ok(Math.hypot(x - 0.1, of("dot").y[k]) < 1e-3));
     assert.deepEqual(complaints(), []);
   },
+  "round-off is not a curve, gaps are apart from positions, and headings are whole": async (browser) => {
+    const model = join(folder, "headings.toml");
+    const long = "a_ball_that_falls_on_the_ground_and_whose_name_is_longer_than_the_heading_of_a_plot";
+    const title = "A ball with a title that is much longer than the heading of a page can be, even on a wide screen, with all its buttons beside it";
+    writeFileSync(model, `lissom = 1\ntitle = "${title}"\ngravity = [0, 0, -9.81]\n[ground]\nshape = { box = [2, 2, 0.1], position = [0, 0, -0.05] }\n[bodies.${long}]\nmass = 1\ninertia = { sphere = 0.1 }\nshape = { sphere = 0.1 }\nposition = [0.7, 0, 0.11]\n[contacts.floor]\nbase = "ground"\ntip = "${long}"\nstiffness = 1e5\ndissipation = 1\n[outputs.${long}]\nkind = "position"\nof = "${long}"\n[outputs.floor]\nkind = "contact_force"\nof = "floor"\n[analysis]\nkind = "dynamics"\nend = 0.3\nstep = 1e-3\n`);
+    const { page, complaints } = await open(browser, join(view(model), "view.html"));
+    const headings = await page.locator(".plot h3 div").allTextContents();
+    assert.ok(headings.includes("floor gap [m]") && headings.includes("floor centre of contact [m]"), JSON.stringify(headings));
+    const cut = await page.evaluate(() => [...document.querySelectorAll("#title, .plot h3 div, .plot h3 b, #parts b")].filter((each) => each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).display !== "inline").map((each) => each.textContent));
+    assert.deepEqual(cut, []);
+    assert.equal(await page.locator("#title").textContent(), title);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    // Columns that the program calls round-off are zero; a constant with round-off has an axis of its size.
+    const [zero, constant, range, nothing, real] = await page.evaluate(() => {
+      const text = "time,a.x,b.x\n0,1,7e-12\n1,2,-3e-12\n";
+      const [a, b] = lissom.readTable(text, [{ name: "a.x", unit: "m" }, { name: "b.x", unit: "rad", is_round_off: true }]).columns;
+      return [[...b.values], [...a.values], lissom.rangeShown(null, 5, 5 + 1e-10), lissom.rangeShown(null, 0, 0), lissom.rangeShown(null, 5, 5.1)];
+    });
+    assert.deepEqual([zero, constant], [[0, 0], [1, 2]]);
+    assert.ok(range[0] < 4.9 && range[1] > 5.1 && nothing[0] === -1 && nothing[1] === 1, JSON.stringify([range, nothing]));
+    assert.ok(real[1] - real[0] < 0.2, JSON.stringify(real));
+    assert.deepEqual(complaints(), []);
+  },
   "plots are chosen, enlarged, moved and split": async (browser) => {
     const { page, complaints } = await open(browser, join(view("examples/pendulum.toml"), "view.html"));
     const names = () => page.evaluate(() => lissom.plots.plots.map(({ output }) => output));

@@ -70,6 +70,45 @@ export const shapes = ({ folder, view, open }) => {
       assert.ok(apart < 1 && cells < 1, `the shadow is ${apart} m, the grid ${cells} cells beside the car`);
       assert.deepEqual(complaints(), []);
     },
+    "a machine that travels far is framed alone, and fit shows the whole motion": async (browser) => {
+      const { page, complaints } = await shown(browser, "far", car());
+      /** Where the ends of the car are in the picture at a share of the run, as shares of its width. */
+      const ends = (share) =>
+        page.evaluate((share) => {
+          const { stage, player, kinematics } = lissom;
+          player.seek(share * player.end);
+          lissom.move();
+          const { node } = lissom.result.scene.bodies[0];
+          const pixels = [-2, 2].map((x) => stage.pixel(kinematics.point({ node, position: [x, 0, 0] }))[0] / stage.holder.clientWidth);
+          return { pixels, length: Math.abs(pixels[1] - pixels[0]), isFollowing: document.getElementById("follow").checked };
+        }, share);
+      const isWithin = ({ pixels }) => pixels.every((x) => x > 0 && x < 1);
+      for (const share of [0, 0.5, 1]) {
+        const seen = await ends(share);
+        assert.ok(seen.isFollowing && seen.length > 0.3 && isWithin(seen), JSON.stringify(seen));
+      }
+      await page.keyboard.press("1");
+      assert.ok(isWithin(await ends(0.7)), "seen from the front at another time");
+      await page.keyboard.press("a");
+      for (const share of [0, 1]) {
+        const seen = await ends(share);
+        assert.ok(!seen.isFollowing && seen.length < 0.1 && isWithin(seen), `${share}: ${JSON.stringify(seen)}`);
+      }
+      await page.keyboard.press("f");
+      await page.keyboard.press("0");
+      assert.ok((await ends(0.2)).length > 0.3, "followed again");
+      assert.deepEqual(complaints(), []);
+    },
+    "ground that is larger than the motion is not framed": async (browser) => {
+      const text = `lissom = 1\n[bodies.box]\nmass = 1\ninertia = { box = [0.2, 0.2, 0.2] }\nshape = { box = [0.2, 0.2, 0.2] }\nvelocity = [1, 0, 0]\n[ground]\nshape = { box = [20, 20, 0.1] }\n${run(0.5)}`;
+      const { page, complaints } = await shown(browser, "floor", text);
+      const side = await page.evaluate(() => {
+        const [left, right] = [-0.1, 0.1].map((x) => lissom.stage.pixel([x, 0, 0])[0]);
+        return (right - left) / lissom.stage.holder.clientWidth;
+      });
+      assert.ok(side > 0.1, `${side}`);
+      assert.deepEqual(complaints(), []);
+    },
     "a shadow darkens the ground below the model, and not beside it": async (browser) => {
       const box = `lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.box]\nmass = 1\ninertia = { box = [1, 1, 0.2] }\nposition = [0, 0, 0.2]\n[joints.base]\nkind = "prismatic"\nbase = "ground"\ntip = "box"\naxis = "x"\n${run(0.1)}`;
       const { page } = await shown(browser, "shadow", box);

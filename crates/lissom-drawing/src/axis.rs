@@ -1,5 +1,8 @@
 //! Axes: their ranges and ticks.
 
+/// Largest extent of values that are constant except for round-off, relative to their size.
+const ROUND_OFF: f64 = 1e-10;
+
 /// Division of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
@@ -49,8 +52,8 @@ impl Axis {
             return [10.0_f64.powf(low), 10.0_f64.powf(if high > low { high } else { low + 1.0 })];
         }
         let extent = high - low;
-        // The axis of a constant would have zero length.
-        let room = match (extent > 1e-12 * high.abs().max(low.abs()), high == 0.0) {
+        // The axis of a constant would have zero length, and that of its round-off would enlarge it.
+        let room = match (extent > ROUND_OFF * high.abs().max(low.abs()), high == 0.0) {
             (true, _) => room * extent,
             (false, true) => 1.0,
             (false, false) => 0.1 * high.abs(),

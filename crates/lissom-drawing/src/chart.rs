@@ -10,6 +10,8 @@ const BLACK: Shade = [0; 3];
 
 /// Heights of text.
 const TITLE: u32 = 16;
+/// Smallest height of a title on one line.
+const SMALL_TITLE: u32 = 11;
 const LABEL: u32 = 13;
 const TICK: u32 = 11;
 /// Distances from the edges, and between adjacent elements.
@@ -132,7 +134,12 @@ impl Chart {
     /// Panels without any point on the axes are omitted.
     pub fn draw(&self) -> Drawing {
         let frames: Vec<Frame<'_>> = self.panels.iter().filter_map(Frame::of).collect();
-        let head = if self.title.is_empty() { MARGIN } else { 2.0 * MARGIN + f64::from(TITLE) };
+        let (title, title_height) = title_lines(&self.title, TITLE, self.width - 2.0 * MARGIN);
+        let line = 1.3 * f64::from(title_height);
+        let head = match title.len() {
+            0 => MARGIN,
+            count => 2.0 * MARGIN + f64::from(TITLE) + line * (count - 1) as f64,
+        };
         let columns = self.columns.max(1);
         let rows = frames.len().div_ceil(columns);
         let cell = self.width / columns as f64;
@@ -157,17 +164,45 @@ impl Chart {
             frame.draw(&mut drawing);
             frame.legend(&mut drawing, legend);
         }
-        if !self.title.is_empty() {
-            let height = fitting(&self.title, TITLE, self.width - 2.0 * MARGIN);
-            let middle = if columns == 1 { 0.5 * (left + right) } else { 0.5 * self.width };
-            let at = [middle, MARGIN + f64::from(TITLE)];
+        let middle = if columns == 1 { 0.5 * (left + right) } else { 0.5 * self.width };
+        for (row, words) in title.iter().enumerate() {
             // Centred on the panels, unless it is too long for that.
-            let half = 0.5 * lettering::width(&self.title, f64::from(height));
-            let x = at[0].clamp(MARGIN + half, (self.width - MARGIN - half).max(MARGIN + half));
-            drawing.words([x, at[1]], &self.title, height, Align::Middle, BLACK);
+            let half = 0.5 * lettering::width(words, f64::from(title_height));
+            let x = middle.clamp(MARGIN + half, (self.width - MARGIN - half).max(MARGIN + half));
+            let y = MARGIN + f64::from(TITLE) + line * row as f64;
+            drawing.words([x, y], words, title_height, Align::Middle, BLACK);
         }
         drawing
     }
+}
+
+/// Lines of a title and their height: one line if it has this width at a legible height up to `height`, otherwise several, which
+/// end between words and within those that are too long.
+pub fn title_lines(title: &str, height: u32, width: f64) -> (Vec<String>, u32) {
+    let height = fitting(title, height, width);
+    if title.is_empty() || height >= SMALL_TITLE {
+        return (Some(title.to_owned()).filter(|title| !title.is_empty()).into_iter().collect(), height);
+    }
+    let fits = |words: &str| lettering::width(words, f64::from(SMALL_TITLE)) <= width;
+    let (mut lines, mut line) = (Vec::new(), String::new());
+    for word in title.split_whitespace() {
+        let longer = format!("{line}{}{word}", if line.is_empty() { "" } else { " " });
+        if fits(&longer) {
+            line = longer;
+            continue;
+        }
+        if !line.is_empty() {
+            lines.push(std::mem::take(&mut line));
+        }
+        for character in word.chars() {
+            if !line.is_empty() && !fits(&format!("{line}{character}")) {
+                lines.push(std::mem::take(&mut line));
+            }
+            line.push(character);
+        }
+    }
+    lines.push(line);
+    (lines, SMALL_TITLE)
 }
 
 /// The largest height up to `height` at which the text has this width.

@@ -25,7 +25,7 @@ mod svg;
 
 pub use animation::{Format, animation};
 pub use axis::{Axis, Scale};
-pub use chart::{Chart, Curve, Mark, Panel};
+pub use chart::{Chart, Curve, Mark, Panel, title_lines};
 pub use depth_buffer::{Corner, DepthBuffer};
 pub use drawing::{Align, Drawing, DrawingError, PngError, Shade, palette};
 pub use image::Image;

@@ -37,6 +37,9 @@ fn constants_and_given_ranges_have_an_extent() {
     let axis = Axis::new("");
     assert_eq!(axis.extent([0.0, 0.0].into_iter(), 0.05), [-1.0, 1.0]);
     assert_eq!(axis.extent([-20.0].into_iter(), 0.05), [-22.0, -18.0]);
+    let noise = axis.extent([5.0, 5.0 + 4e-10].into_iter(), 0.05);
+    assert!(noise[0] < 4.6 && noise[1] > 5.4, "round-off of a constant is not enlarged: {noise:?}");
+    assert!(axis.extent([5.0, 5.0 + 1e-8].into_iter(), 0.05)[1] < 5.0 + 2e-8);
     assert_eq!(axis.extent([0.0, 10.0].into_iter(), 0.05), [-0.5, 10.5]);
     assert_eq!(Axis { range: Some([1.0, 2.0]), ..axis }.extent([0.0].into_iter(), 0.05), [1.0, 2.0]);
     let decades = Axis::logarithmic("").extent([2.0, 300.0].into_iter(), 0.05);

@@ -67,3 +67,25 @@ fn panels_stand_beside_each_other() {
     assert!(!svg.contains("stroke=\"#0072b2\""), "no lines");
     assert!(drawing.png().unwrap().starts_with(b"\x89PNG"));
 }
+
+#[test]
+fn long_titles_have_several_lines_within_the_width() {
+    let width = |words: &str| lettering::width(words, f64::from(SMALL_TITLE));
+    assert_eq!(title_lines("", TITLE, 400.0).0, Vec::<String>::new());
+    assert_eq!(title_lines("Waves", TITLE, 400.0), (vec!["Waves".to_owned()], TITLE));
+    let words = "title that goes on ".repeat(12);
+    let (of_words, height) = title_lines(words.trim(), TITLE, 400.0);
+    assert_eq!((height, of_words.join(" ")), (SMALL_TITLE, words.trim().to_owned()));
+    assert!(of_words.len() > 2 && of_words.iter().all(|line| width(line) <= 400.0), "{of_words:?}");
+    let name = "a_name_without_spaces".repeat(12);
+    let (of_name, _) = title_lines(&name, TITLE, 400.0);
+    assert_eq!(of_name.concat(), name);
+    assert!(of_name.iter().all(|line| width(line) <= 400.0), "{of_name:?}");
+    // A second line makes the drawing higher.
+    let height = |title: &str| {
+        let curve = Curve { points: vec![(0.0, 0.0), (1.0, 1.0)], ..Curve::new(palette(0)) };
+        let panel = Panel { x: Axis::new("x"), y: Axis::new("y"), curves: vec![curve] };
+        Chart { title: title.to_owned(), ..Chart::new("waves", vec![panel]) }.draw().size[1]
+    };
+    assert!(height(&words) > height("Waves") + 10.0);
+}

@@ -3,6 +3,7 @@
 
 use std::io;
 
+use super::round_off::{largest, round_off};
 use super::{Column, Record, Writer, check_count};
 
 /// Stretches of a curve: twice as many become half of them. A drawing shows fewer.
@@ -64,6 +65,16 @@ impl CurveRecord {
         points.extend(end(1));
         points.dedup();
         points
+    }
+
+    /// Which columns are round-off, as [`Record::round_off`].
+    pub(super) fn round_off(&self) -> Vec<bool> {
+        let most: Vec<f64> = (0..self.columns.len())
+            .map(|column| largest(self.points(column).into_iter().map(|point| point.1)))
+            .collect();
+        let duration = self.ends.as_ref().map_or(0.0, |[first, last]| last.0 - first.0);
+        let rows = self.curves.first().map_or(0, |curve| curve.len() * self.rows);
+        round_off(&self.columns, &most, (duration, rows))
     }
 
     fn push(&mut self, time: f64, values: &[f64]) {

@@ -78,21 +78,16 @@ pub fn plots(
     if names.is_empty() {
         return Err(CurveError::NothingShared);
     }
+    let round_off: Vec<Vec<bool>> = sources.iter().map(|source| source.record.round_off()).collect();
     for name in &names {
         let mut panels: Vec<Panel> = Vec::new();
         let mut cut = false;
-        for source in sources {
+        for (source, is_round_off) in sources.iter().zip(&round_off) {
             let columns = columns(source, name)?;
             for index in columns {
                 let column = &source.record.columns[index];
                 let points = match over {
-                    Over::Time => source
-                        .record
-                        .times
-                        .iter()
-                        .copied()
-                        .zip(source.record.values[index].iter().copied())
-                        .collect(),
+                    Over::Time => source.record.drawn(index, is_round_off[index]),
                     Over::Column(x) => {
                         let x = one(source, x)?;
                         source.record.values[x]
@@ -168,7 +163,7 @@ fn push(
             return Ok(());
         }
     }
-    match panels.iter_mut().find(|panel| panel.unit == column.unit) {
+    match panels.iter_mut().find(|panel| panel.takes(column)) {
         Some(panel) => {
             panel.names.push(name);
             panel.add_quantity(&quantity_of(column));

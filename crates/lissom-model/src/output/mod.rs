@@ -8,6 +8,7 @@ mod curves;
 mod log_plot;
 mod plot;
 mod record;
+mod round_off;
 mod spectrum;
 mod summary;
 mod sweep_plot;
@@ -24,10 +25,10 @@ pub use curve_record::CurveRecord;
 pub use curves::{CurveError, Over, Plots, Source, plots};
 pub use lissom_drawing::{
     Align, Axis, Chart, Corner, Curve, DepthBuffer, Drawing, DrawingError, Format, Image, Mark, Panel, Shade,
-    animation,
+    animation, title_lines,
 };
 pub use log_plot::LogFigure;
-pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves};
+pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves, quantity_of};
 pub use record::{Record, RecordError};
 pub use spectrum::Spectrum;
 pub use summary::Summary;

@@ -11,6 +11,9 @@ const POINTS: usize = 2000;
 /// Smallest amplitude that is drawn, relative to the largest.
 const DECADES: f64 = 1e-8;
 
+/// Position of a contact: beside it gaps, which are in metres as well, would be a straight line.
+const CENTRE: &str = "centre of contact";
+
 /// Curves of a panel that are drawn without dashes.
 const SOLID: usize = 3;
 
@@ -123,7 +126,7 @@ pub(super) fn file_name(name: &str) -> String {
 }
 
 /// Label of an axis: some kinds of output record several quantities, which are distinguished by their units.
-pub(super) fn quantity_of(column: &Column) -> String {
+pub fn quantity_of(column: &Column) -> String {
     let quantity = column.quantity.as_str();
     let word = match (quantity, column.unit.as_str()) {
         ("relative" | "relative motion", "rad") => "relative rotation",
@@ -137,21 +140,29 @@ pub(super) fn quantity_of(column: &Column) -> String {
         ("spring", "rad") => "rotation",
         ("spring", "m/s") => "rate of elongation",
         ("spring", "rad/s") => "rate of rotation",
+        ("contact force", "m") if column.component.starts_with('x') => CENTRE,
+        ("contact force", "m") => "gap",
+        ("contact force", "m/s") => "sliding velocity",
         _ => quantity,
     };
     word.to_owned()
 }
 
-/// The figures of a record: one per output.
+/// The figures of a record: one per output. Round-off is drawn as zero.
 pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
-    let points =
-        |column: usize| record.times.iter().copied().zip(record.values[column].iter().copied()).collect();
+    let is_round_off = record.round_off();
+    let points = |column: usize| record.drawn(column, is_round_off[column]);
     figures_of(&record.columns, points, title)
 }
 
-/// The figures of curves: one per output.
+/// The figures of curves: one per output. Round-off is drawn as zero.
 pub fn figures_of_curves(record: &CurveRecord, title: &str) -> Vec<Figure> {
-    figures_of(record.columns(), |column| record.points(column), title)
+    let is_round_off = record.round_off();
+    let points = |column: usize| {
+        let factor = if is_round_off[column] { 0.0 } else { 1.0 };
+        record.points(column).into_iter().map(|(time, value)| (time, factor * value)).collect()
+    };
+    figures_of(record.columns(), points, title)
 }
 
 fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, title: &str) -> Vec<Figure> {
@@ -173,7 +184,7 @@ fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, tit
         });
         let panels = &mut figures[index].1.panels;
         let curve = (column.label(columns), thinned(points(which)));
-        match panels.iter_mut().find(|panel| panel.unit == column.unit) {
+        match panels.iter_mut().find(|panel| panel.takes(column)) {
             Some(panel) => {
                 panel.add_quantity(&quantity_of(column));
                 panel.curves.push(curve);
@@ -255,6 +266,11 @@ impl Figure {
 }
 
 impl Panel {
+    /// Whether a column of a figure is drawn in it: columns of one unit, of which the positions of contacts are in a panel of their own.
+    pub(super) fn takes(&self, column: &Column) -> bool {
+        self.unit == column.unit && (self.quantity == CENTRE) == (quantity_of(column) == CENTRE)
+    }
+
     /// Adds a quantity to those on its axis.
     pub(super) fn add_quantity(&mut self, quantity: &str) {
         if !self.quantity.split(", ").any(|known| known == quantity) {

@@ -15,8 +15,10 @@ use serde::{Deserialize, Serialize};
 /// The corners of a triangle.
 type Triangle = [[f32; 3]; 3];
 
-/// Number of sides of round solids.
-const ROUND: usize = 32;
+/// Number of sides of balls and of round ends.
+const ROUND: usize = 40;
+/// Number of sides of cylinders and tubes, which are often larger in a picture and have few triangles.
+const SIDES: usize = 64;
 /// Most triangles of a file.
 const MAX_TRIANGLES: usize = 500_000;
 
@@ -81,11 +83,11 @@ impl Surface {
                 let across = (start - start.dot(&axis) * axis).normalize();
                 let other = axis.cross(&across);
                 let place = |radius: f64, height: f64, side: usize| {
-                    let (sine, cosine) = (std::f64::consts::TAU * side as f64 / ROUND as f64).sin_cos();
+                    let (sine, cosine) = (std::f64::consts::TAU * side as f64 / SIDES as f64).sin_cos();
                     radius * cosine * across + radius * sine * other + height * axis
                 };
                 let ring = |radius: f64, height: f64| -> Vec<Vector3> {
-                    (0..ROUND).map(|side| place(radius, height, side)).collect()
+                    (0..SIDES).map(|side| place(radius, height, side)).collect()
                 };
                 let half = 0.5 * length;
                 let outside = [ring(outer, -half), ring(outer, half)];

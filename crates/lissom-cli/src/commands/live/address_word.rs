@@ -2,7 +2,7 @@
 
 use std::hash::{BuildHasher, RandomState};
 
-/// Two values of a keyed hash whose 128-bit key the system has chosen at random. For a port that was chosen by the user the word is
+/// Two values of a keyed hash whose 128-bit key the system has chosen at random. For a port other than 0 the word is
 /// stored in the user's runtime folder, which only this user can read and which is empty after a restart of the machine: pages that are
 /// open find the program again.
 pub(super) fn word(port: u16) -> String {

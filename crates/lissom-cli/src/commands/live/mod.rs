@@ -25,8 +25,8 @@ const PATIENCE: Duration = Duration::from_millis(100);
 ///
 /// The page has a slider for every number in `[parameters]`. While the model has errors the page shows them together with the
 /// last picture. The page is accessible only from this machine and at the printed address, which contains a random word. No
-/// file is written, except that the word of a port chosen by `--port` is kept in the user's runtime folder, so that open pages
-/// find a restarted program.
+/// file is written, except that the word of a port is kept in the user's runtime folder, so that open pages find a restarted
+/// program.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -43,9 +43,9 @@ pub(super) struct Live {
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
-    /// Port of the page [default: any free port].
-    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
-    port: u16,
+    /// Port of the page; 0 for any free one [default: one that follows from the path of the model, or any if that is not free].
+    #[arg(long, value_name = "N")]
+    port: Option<u16>,
 
     /// Open it in the browser.
     #[arg(long)]
@@ -59,7 +59,7 @@ impl Live {
         Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let shared = Arc::new(Shared::default());
         let address = server::start(self.port, &self.model, &shared).map_err(|error| {
-            let error = CommandError::Port { port: self.port.into(), reason: error.to_string() };
+            let error = CommandError::Port { port: self.port.unwrap_or(0).into(), reason: error.to_string() };
             Failure::new(Exit::Failed, &error)
         })?;
         simulation::start(self.model, self.set, &shared);

@@ -2,6 +2,7 @@
 //! serves only the page and the results: no file can be named.
 
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::Path;
@@ -22,10 +23,26 @@ const MAX_CONNECTIONS: usize = 24;
 /// Stack of the thread of a connection [bytes].
 const STACK_SIZE: usize = 1 << 18;
 
-/// Serves the page in threads of its own as long as the program runs. Returns the address.
-pub(super) fn start(port: u16, model: &Path, shared: &Arc<Shared>) -> io::Result<String> {
-    let listener = TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)))?;
-    let word = address_word::word(port);
+/// First of the ports that follow from the path of a model, and their number: below those that systems give to connections.
+const PORTS: [u16; 2] = [20_000, 10_000];
+
+/// The port of a model, which is the same whenever the program is started.
+fn usual_port(model: &Path) -> u16 {
+    let mut hasher = DefaultHasher::new();
+    model.canonicalize().unwrap_or_else(|_| model.to_owned()).hash(&mut hasher);
+    PORTS[0] + (hasher.finish() % u64::from(PORTS[1])) as u16
+}
+
+/// Serves the page in threads of its own as long as the program runs. Returns the address, with the same word whenever a port is
+/// used again; port 0 is any free port.
+pub(super) fn start(port: Option<u16>, model: &Path, shared: &Arc<Shared>) -> io::Result<String> {
+    let bind = |port: u16| TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+    let wanted = port.unwrap_or_else(|| usual_port(model));
+    let (listener, known) = match bind(wanted) {
+        Err(_) if port.is_none() => (bind(0)?, 0),
+        listener => (listener?, wanted),
+    };
+    let word = address_word::word(known);
     let port = listener.local_addr()?.port();
     let title = model.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let site = Arc::new(Site { word, port, page: view::empty_page(&title) });

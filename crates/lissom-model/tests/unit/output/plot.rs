@@ -123,6 +123,31 @@ fn outputs_of_one_plot_are_drawn_together() {
     assert_eq!(panel(2, 0), "displacement [m]: u1");
 }
 
+/// Gaps beside positions would be a straight line, and round-off is zero.
+#[test]
+fn positions_of_contacts_have_a_panel_and_round_off_is_zero() {
+    let of = |component: &str, unit: &str| Column::new("floor", component, "contact force", unit);
+    let columns =
+        [of("gap", "m"), of("f1", "N"), of("f3", "N"), of("slip", "m/s"), of("x1", "m"), of("x3", "m")];
+    let values = |t: f64| vec![1e-4 * t, 1e-14 * t, 10.0, t, 3.0, 0.5];
+    let own = &figures(&record(5, values, &columns), "")[0];
+    let panel = |panel: &Panel| {
+        let names: Vec<&str> = panel.curves.iter().map(|(name, _)| name.as_str()).collect();
+        format!("{} [{}]: {}", panel.quantity, panel.unit, names.join(" "))
+    };
+    let panels: Vec<String> = own.panels.iter().map(panel).collect();
+    let forces = "contact force [N]: f1 f3";
+    assert_eq!(
+        panels,
+        ["gap [m]: gap", forces, "sliding velocity [m/s]: slip", "centre of contact [m]: x1 x3"]
+    );
+    assert!(own.panels[1].curves[0].1.iter().all(|point| point.1 == 0.0));
+    assert!(own.panels[0].curves[0].1.iter().any(|point| point.1 > 0.0));
+    // A run draws curves that it has kept row by row.
+    let kept = CurveRecord::from(&record(5, values, &columns));
+    assert!(figures_of_curves(&kept, "")[0].panels[1].curves[0].1.iter().all(|point| point.1 == 0.0));
+}
+
 #[test]
 fn figures_have_different_names_and_panels_by_unit() {
     let outputs = ["a b", "a_b", "a.b", "a-b"];

@@ -22,6 +22,17 @@ const ABOUT_BODIES: f64 = 1.5;
 /// Turns of the coil of a spring.
 const TURNS: f64 = 9.0;
 
+/// Kinds of joints that slide along their first axis.
+const SLIDING: [&str; 2] = ["prismatic", "cylindrical"];
+/// Half length of their symbol, width of a rail, and side and thickness of the plates at its ends, in radii of the symbol.
+const HALF_SLIDER: f64 = 2.3;
+const RAIL: f64 = 0.4;
+const RAIL_PLATE: [f64; 2] = [2.2, 0.35];
+/// Length of a rail at most, relative to the model: a longer one would make the picture of a vehicle as wide as its travel.
+const LONGEST_RAIL: f64 = 6.0;
+/// Side and thickness of the plate at the end of a spring on the ground, relative to the model.
+const SPRING_PLATE: [f64; 2] = [0.055, 0.009];
+
 /// Role of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -187,7 +198,7 @@ impl Geometry {
         let (low, high, size) = bounds(scene, motion);
         let mut geometry = Self { pieces: Vec::new(), low, high, size, up: scene.up() };
         geometry.parts(scene, motion, if is_picture { MIN_THICKNESS * size } else { MIN_TRUE * size });
-        geometry.symbols(scene);
+        geometry.symbols(scene, motion);
         geometry.springs(scene, motion);
         if is_picture {
             geometry.loads(scene);
@@ -295,7 +306,7 @@ impl Geometry {
         Mesh::cylinder(0.0055 * self.size, along.norm()).moved(&pose)
     }
 
-    fn symbols(&mut self, scene: &Scene) {
+    fn symbols(&mut self, scene: &Scene, motion: &Motion) {
         let role = |table: Option<Table>| match table {
             Some(Table::Springs) => Role::Spring,
             Some(Table::Loads) => Role::Load,
@@ -323,7 +334,7 @@ impl Geometry {
         }
         // A plinth is drawn below every joint on the ground.
         for joint in &scene.joints {
-            let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == GROUND) else { continue };
+            let Some([base, tip]) = joint.anchors.filter(|[base, _]| base.node == GROUND) else { continue };
             let symbol = symbols_of(scene, &joint.name, Table::Joints).next();
             // What rolls on the ground is no support.
             if symbol.is_some_and(|symbol| symbol.unit.is_some()) {
@@ -333,12 +344,43 @@ impl Geometry {
             let pose = Pose::new(turn_to(&self.up), Vector3::from(base.position) - 1.15 * radius * self.up);
             let mesh = Mesh::plinth(0.55 * radius, 1.75 * radius, 1.9 * radius).moved(&pose);
             self.add(&joint.name, (Role::Joint, Colour::Ground), mesh, Carrier::Node(GROUND));
+            if let Some(axis) = joint.axes.first().filter(|_| SLIDING.contains(&joint.kind.as_str())) {
+                self.rail(&joint.name, ([base, tip], Vector3::from(*axis)), radius, motion);
+            }
         }
         for rod in &scene.rods {
             let mesh = Mesh::cylinder(rod.radius.unwrap_or_else(|| 0.35 * self.radius(0.0)), 1.0);
             let paint = (role(rod.table), Colour::Tone(Tone::Dark));
             self.add(&rod.name, paint, mesh, Carrier::Span(rod.anchors));
         }
+    }
+
+    /// Adds the rail on the ground along which a joint slides over the motion, with a plate at each end, unless the joint does
+    /// not leave its symbol or travels far.
+    fn rail(
+        &mut self,
+        name: &str,
+        ([base, tip], axis): ([Anchor; 2], Vector3),
+        radius: f64,
+        motion: &Motion,
+    ) {
+        let (base, tip_at) = (Vector3::from(base.position), Vector3::from(tip.position));
+        let slide = |frame| axis.dot(&(motion.pose(frame, tip.node).transform_point(&tip_at) - base));
+        let (least, most) = (0..motion.times().len())
+            .map(slide)
+            .fold((0.0_f64, 0.0_f64), |(least, most), place| (least.min(place), most.max(place)));
+        let half = HALF_SLIDER * radius;
+        if most.max(-least) < half || most - least > LONGEST_RAIL * self.size {
+            return;
+        }
+        let (low, high) = (least - half, most + half);
+        let at = |place: f64| Pose::new(turn_to(&axis), base + place * axis);
+        let [side, thickness] = RAIL_PLATE.map(|share| share * radius);
+        let mut plates = Mesh::block([side, thickness, side]).moved(&at(low));
+        plates.append(Mesh::block([side, thickness, side]).moved(&at(high)));
+        let rail = Mesh::block([RAIL * radius, high - low, RAIL * radius]).moved(&at(0.5 * (low + high)));
+        self.add(name, (Role::Joint, Colour::Tone(Tone::Dark)), rail, Carrier::Node(GROUND));
+        self.add(name, (Role::Joint, Colour::Ground), plates, Carrier::Node(GROUND));
     }
 
     /// Radius of a symbol that is not hidden by sections of this half thickness.
@@ -358,6 +400,27 @@ impl Geometry {
                 Mesh::coil(0.016 * self.size, 0.0035 * self.size, TURNS, length)
             };
             self.add(&spring.name, (Role::Spring, Colour::Tone(Tone::Spring)), mesh, Carrier::Span(anchors));
+            self.plates(&spring.name, anchors, motion);
+        }
+    }
+
+    /// Adds a plate at each end of a spring on the ground, across the spring at the start.
+    fn plates(&mut self, name: &str, anchors: [Anchor; 2], motion: &Motion) {
+        if motion.times().is_empty() {
+            return;
+        }
+        let start =
+            |anchor: &Anchor| motion.pose(0, anchor.node).transform_point(&Vector3::from(anchor.position));
+        let [base, tip] = anchors.each_ref().map(start);
+        for (anchor, at, other) in [(anchors[0], base, tip), (anchors[1], tip, base)] {
+            if anchor.node != GROUND {
+                continue;
+            }
+            let outward = (at - other).try_normalize(0.0).unwrap_or(-self.up);
+            let [side, thickness] = SPRING_PLATE.map(|share| share * self.size);
+            let pose = Pose::new(turn_to(&outward), at + 0.5 * thickness * outward);
+            let mesh = Mesh::block([side, thickness, side]).moved(&pose);
+            self.add(name, (Role::Spring, Colour::Ground), mesh, Carrier::Node(GROUND));
         }
     }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use lissom_core::diagnostics::Diagnose;
-use lissom_model::output::{Align, Drawing, DrawingError, Format, Shade, animation};
+use lissom_model::output::{Align, Drawing, DrawingError, Format, Shade, animation, title_lines};
 use lissom_model::scene::Scene;
 use lissom_motion::{Motion as Pose, Vector3};
 
@@ -30,6 +30,7 @@ const AXES: [(&str, Shade); 3] =
     [("x", [0xd1, 0x49, 0x5b]), ("y", [0x2f, 0x9e, 0x63]), ("z", [0x3b, 0x74, 0xd9])];
 /// Margin around the drawing, and below it for text.
 const MARGIN: f64 = 14.0;
+const TITLE: u32 = 17;
 const LINE: f64 = 22.0;
 const FOOT: f64 = 64.0;
 /// Maximum width and height of the area of panels.
@@ -301,9 +302,20 @@ impl Sheet {
         let [width, height] = self.panel();
         let left = 0.5 * (self.width() - self.columns as f64 * width);
         let x = left + (index % self.columns) as f64 * width + MARGIN;
-        let y = head(title) + (index / self.columns) as f64 * (height + LINE) + MARGIN;
+        let y = self.head(title) + (index / self.columns) as f64 * (height + LINE) + MARGIN;
         let (low, high, scale) = (self.frame.low[0], self.frame.high[1], self.scale);
         move |point| [x + (point[0] - low) * scale, y + (high - point[1]) * scale]
+    }
+
+    /// Lines of the title and their height.
+    fn title(&self, title: &str) -> (Vec<String>, u32) {
+        title_lines(title, TITLE, self.width() - 2.0 * MARGIN)
+    }
+
+    /// Height of the area of the title.
+    fn head(&self, title: &str) -> f64 {
+        let lines = self.title(title).0.len();
+        if lines == 0 { 0.0 } else { (lines + 1) as f64 * LINE }
     }
 
     fn drawn(
@@ -314,10 +326,12 @@ impl Sheet {
         note: &str,
     ) -> Drawing {
         let [_, height] = self.panel();
-        let size = [self.width(), head(title) + self.rows as f64 * (height + LINE) + FOOT];
+        let size = [self.width(), self.head(title) + self.rows as f64 * (height + LINE) + FOOT];
         let mut drawing = Drawing::new("snapshot", size);
-        if !title.is_empty() {
-            drawing.words([0.5 * size[0], 1.3 * LINE], title, 17, Align::Middle, WORDS);
+        let (lines, height) = self.title(title);
+        for (row, words) in lines.iter().enumerate() {
+            let y = (1.3 + row as f64) * LINE;
+            drawing.words([0.5 * size[0], y], words, height, Align::Middle, WORDS);
         }
         let all = panels.seen[shown.clone()].iter().zip(&panels.arrows[shown]);
         for (index, ((faces, arrows), words)) in all.zip(labels).enumerate() {
@@ -364,11 +378,6 @@ impl Sheet {
             if length < 1.0 { format!("{} mm", short(1e3 * length)) } else { format!("{} m", short(length)) };
         drawing.words([0.5 * (start + x), y - 6.0], &words, 12, Align::Middle, FAINT);
     }
-}
-
-/// Height of the title.
-fn head(title: &str) -> f64 {
-    if title.is_empty() { 0.0 } else { 2.0 * LINE }
 }
 
 /// An arrow of a force.

@@ -8,7 +8,7 @@ pub(crate) mod modes;
 mod packed;
 
 use lissom_core::diagnostics::{Diagnose, Severity};
-use lissom_model::output::{Column, Record};
+use lissom_model::output::{Column, Record, quantity_of};
 use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::Value;
@@ -206,8 +206,16 @@ impl Results {
     /// With the table of results.
     #[must_use]
     pub fn with_record(mut self, record: &Record) -> Self {
-        let column = |column: &Column| serde_json::json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "plot": column.plot });
-        self.columns = record.columns.iter().map(column).collect();
+        let column = |(column, is_round_off): (&Column, bool)| {
+            serde_json::json!({
+                "name": column.name(),
+                "quantity": quantity_of(column),
+                "unit": column.unit,
+                "plot": column.plot,
+                "is_round_off": is_round_off,
+            })
+        };
+        self.columns = record.columns.iter().zip(record.round_off()).map(column).collect();
         let numbers = record.times.len() * (record.columns.len() + 1);
         let stride = numbers.div_ceil(MAX_NUMBERS).max(1);
         if stride > 1 {
