@@ -142,6 +142,8 @@ pub(super) struct TouchingBody {
 pub(super) struct Contacts {
     /// Entries of the model file.
     pub(super) text: String,
+    /// Names of the entries.
+    pub(super) names: Vec<String>,
     /// For each link and each of its visuals, whether it touches.
     pub(super) touches: Vec<Vec<bool>>,
     /// What is omitted of contacts, one sentence each.
@@ -243,7 +245,7 @@ impl Contacts {
     /// Nothing touches.
     pub(super) fn none(robot: &Robot) -> Self {
         let touches = robot.links.iter().map(|link| vec![true; link.visuals.len()]).collect();
-        Self { text: String::new(), touches, notes: Vec::new() }
+        Self { text: String::new(), names: Vec::new(), touches, notes: Vec::new() }
     }
 
     /// The contacts of `robot` with its `bodies`.
@@ -263,13 +265,14 @@ impl Contacts {
             .values()
             .flat_map(|(law, all)| clusters(all).into_iter().map(move |own| (law, own)))
             .collect();
-        let mut text = String::new();
+        let (mut text, mut names) = (String::new(), Vec::new());
         for (index, (law, own)) in entries.iter().enumerate() {
             let name =
                 if entries.len() == 1 { "touching".to_owned() } else { format!("touching{}", index + 1) };
             write_entry(&mut text, &name, law, own, bodies, (&masses, gravity));
+            names.push(name);
         }
-        Self { text, touches, notes: pairs.notes() }
+        Self { text, names, touches, notes: pairs.notes() }
     }
 
     /// Whether anything touches.

@@ -187,7 +187,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     write_ropes(&mut text, robot, &frames, &group_name);
     write_compensations(&mut text, robot, &frames, &groups, &number);
     text.push_str(&contacts.text);
-    text.push_str(&outputs(robot, &placed));
+    text.push_str(&outputs(robot, &placed, &contacts));
     write_sensors(&mut text, robot, &placed, |link, frame| {
         let group = &groups[number[link]];
         // The ground has the global axes, wherever the root is.
@@ -523,10 +523,13 @@ fn header(robot: &Robot, options: Options, start: &Start, contacts: &Contacts) -
 }
 
 /// Outputs of all joints, and of the energy.
-fn outputs(robot: &Robot, placed: &[Placed]) -> String {
+fn outputs(robot: &Robot, placed: &[Placed], contacts: &Contacts) -> String {
     let mut text = String::new();
     for place in robot.joints.iter().zip(placed).filter(|(joint, _)| joint.moves()).map(|(_, place)| place) {
         let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.own);
+    }
+    for name in &contacts.names {
+        let _ = write!(text, "\n[outputs.{name}]\nkind = \"contact_force\"\nof = \"{name}\"\n");
     }
     text + "\n[outputs.energy]\nkind = \"energy\"\n"
 }
