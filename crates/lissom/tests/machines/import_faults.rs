@@ -349,3 +349,32 @@ fn limits_with_equal_ends_are_reported() {
     assert!(text.contains("two equal ends") && text.contains("`hip`"), "{text}");
     assert!(!text.contains("stop_stiffness") && !text.contains("Stiffness of stops"), "{text}");
 }
+
+/// Files of Drake: `world` is the ground without a link, prefixes are not declared, shapes may have no extension; joints that the format
+/// does not have are named.
+#[test]
+fn descriptions_of_other_programs_are_read() {
+    let text = "<robot name='r'><link name='arm'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
+                <visual><geometry><sphere radius='0'/></geometry></visual></link>\
+                <joint name='hip' type='continuous'><parent link='world'/><child link='arm'/><axis xyz='0 1 0'/></joint>\
+                FOREIGN</robot>";
+    let folder = Folder::new("foreign");
+    let path = folder.path().join("arm.urdf");
+    let read = |foreign: &str| {
+        std::fs::write(&path, text.replace("FOREIGN", foreign)).unwrap();
+        from_file(&path)
+    };
+    let robot = read("").expect("a robot");
+    assert!(robot.links[0].name == "world" && !robot.may_float());
+    assert!(robot.links[1].visuals.is_empty());
+    assert!(model_text(&robot, &Pose::default(), Options::default()).is_ok());
+    let robot =
+        read("<drake:joint name='ball' type='ball'><parent link='arm'/><child link='tip'/></drake:joint>")
+            .expect("a robot");
+    assert_eq!(robot.joints.len(), 1);
+    let error = model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string();
+    assert!(error.contains("<drake:joint>"), "{error}");
+    let empty = from_description("<robot name='r'><link name='a'/></robot>").expect("a robot");
+    let error = model_text(&empty, &Pose::default(), Options::default()).unwrap_err().to_string();
+    assert!(error.contains("no link of the description has mass"), "{error}");
+}

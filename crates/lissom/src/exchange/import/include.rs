@@ -28,7 +28,8 @@ pub(super) fn with_included(path: &Path) -> Result<String, ImportError> {
 }
 
 fn read(path: &Path) -> Result<String, ImportError> {
-    files::read_input_text(path).map_err(|error| ImportError::new(error.to_string()))
+    let text = files::read_input_text(path).map_err(|error| ImportError::new(error.to_string()))?;
+    if xml::too_deep(&text).is_some() { Ok(text) } else { Ok(xml::with_prefixes(text)) }
 }
 
 /// The text of the file `name` with what it includes; so many files include it one in the other.

@@ -378,6 +378,10 @@ fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
             )
         }));
     }
+    if robot.obstacles.is_empty() && robot.links.iter().all(|link| link.inertia.is_none()) {
+        obstacles
+            .push("no link of the description has mass: add an <inertial> to those that move".to_owned());
+    }
     if robot.obstacles.is_empty() && obstacles.is_empty() && robot.is_root_the_world && is_at_rest(robot) {
         obstacles.push("no body of the description moves: there is nothing to simulate".to_owned());
     }

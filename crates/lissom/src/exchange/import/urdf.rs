@@ -36,6 +36,11 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     for node in children(root, "link") {
         links.push(link(node, &colours, &mut notes)?);
     }
+    // The ground has this name for some programs, without a link.
+    let is_world = |joint| child(joint, "parent").and_then(|own| own.attribute("link")) == Some("world");
+    if children(root, "joint").any(is_world) && !links.iter().any(|link| link.name == "world") {
+        links.push(Link::new("world".to_owned(), None, String::new()));
+    }
     let mut numbers = BTreeMap::new();
     for (number, link) in links.iter().enumerate() {
         if numbers.insert(link.name.clone(), number).is_some() {
@@ -50,7 +55,16 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     }
     let Notes { obstacles, left_out, planar, .. } = notes;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    let robot = Robot { name, gravity: GRAVITY, links, joints, left_out, obstacles, ..Robot::default() };
+    // Joints and springs of other programs, which the format does not have.
+    let foreign = root.children().filter(|own| own.tag_name().namespace().is_some());
+    let words = |own: Node<'_, '_>| {
+        let prefix =
+            own.tag_name().namespace().and_then(|space| own.lookup_prefix(space)).unwrap_or_default();
+        format!("<{prefix}:{}> ({})", own.tag_name().name(), location(own))
+    };
+    let unsupported = foreign.filter(|own| !own.has_tag_name("collision_filter_group")).map(words).collect();
+    let robot =
+        Robot { name, gravity: GRAVITY, links, joints, left_out, unsupported, obstacles, ..Robot::default() };
     let mut robot = with_planar_joints(robot.in_order()?, &planar);
     robot.note_speed_limits();
     robot.fix_massless_ends();
@@ -232,10 +246,14 @@ fn visual<'a>(node: Node<'a, 'a>, link: &str, colours: &Colours<'a>) -> Result<O
         VisualShape::Sphere(radius) => vec![*radius],
         _ => Vec::new(),
     };
-    if lengths.iter().any(|length| *length <= 0.0) {
+    if lengths.iter().any(|length| *length < 0.0) {
         return Err(ImportError::new(format!(
-            "link `{link}`: the shape of its <visual> has a length that is not positive"
+            "link `{link}`: the shape of its <visual> has a negative length"
         )));
+    }
+    // Exporters write shapes without extension where nothing is to be drawn.
+    if lengths.contains(&0.0) {
+        return Ok(None);
     }
     Ok(Some(Visual { shape, origin: origin(node)?, touch: None, name: None, colour: colour(node, colours)? }))
 }

@@ -23,8 +23,20 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
     Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))
 }
 
+/// The text with declarations of the prefixes of names that it lacks, which programs that know no namespaces accept.
+pub(super) fn with_prefixes(mut text: String) -> String {
+    while let Err(roxmltree::Error::UnknownNamespace(prefix, _)) = Document::parse(&text) {
+        let is_root = |&(at, _): &(usize, &str)| text[at + 1..].starts_with(char::is_alphabetic);
+        let Some((root, _)) = text.match_indices('<').find(is_root) else { break };
+        let name = text[root..].find(|sign: char| sign.is_whitespace() || sign == '>' || sign == '/');
+        let Some(length) = name else { break };
+        text.insert_str(root + length, &format!(" xmlns:{prefix}=\"{prefix}\""));
+    }
+    text
+}
+
 /// Where the first tag begins that is nested more deeply than [`MAX_DEPTH`], by a scan of the text: parsers are recursive, too.
-fn too_deep(text: &str) -> Option<usize> {
+pub(super) fn too_deep(text: &str) -> Option<usize> {
     let (mut depth, mut from) = (0_usize, 0);
     while let Some(at) = text[from..].find('<').map(|at| from + at) {
         let tag = &text[at..];
@@ -69,7 +81,7 @@ pub(super) fn root_tag(text: &str) -> Result<String, ImportError> {
 }
 
 pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(move |child| child.has_tag_name(tag))
+    node.children().filter(move |child| child.has_tag_name(tag) && child.tag_name().namespace().is_none())
 }
 
 /// Target of a processing instruction after which the text is that of another file, from a line on: `line file`, without a
