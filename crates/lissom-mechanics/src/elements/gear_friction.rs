@@ -30,8 +30,8 @@ pub struct GearFriction {
 }
 
 impl GearFriction {
-    /// Of a gear with this efficiency and the multiplier of this index; `moment` is that on the independent coordinate per unit of the
-    /// multiplier.
+    /// Friction of a gear with this efficiency, deflection and damping, and the multiplier of this index; `moment` is that on the
+    /// independent coordinate per unit of the multiplier.
     pub fn contribution(
         model: &InitialModel,
         coordinate: CoordinateId,

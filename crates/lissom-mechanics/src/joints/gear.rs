@@ -5,10 +5,8 @@ use std::sync::Arc;
 use super::coupling::{Relation, RelationPoint};
 use super::kind::{Build, JointKind};
 use crate::ports::Ports;
-use crate::registry::ParameterType::{NotNegative, Number, Positive};
-use crate::registry::{
-    OTHER_COORDINATE, ParameterError, ParameterType, WHICH_COORDINATE, optional, required, unitless,
-};
+use crate::registry::ParameterType::{Between, NotNegative, Number, Positive};
+use crate::registry::{OTHER_COORDINATE, ParameterType, WHICH_COORDINATE, optional, required, unitless};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -26,9 +24,9 @@ pub const KIND: JointKind = JointKind {
         OTHER_COORDINATE,
         optional(
             "efficiency",
-            Positive,
+            Between(0.01, 1.0),
             "1",
-            "Share η of the power that arrives at `other` if `joint` drives, at most 1; 2 - 1/η if `other` drives: below 0.5 it locks.",
+            "Share η of the power that arrives at `other` if `joint` drives; 2 - 1/η if `other` drives: below 0.5 it locks.",
         )
         .or_number(1.0),
         optional("deflection", Positive, "rad or m", "Elastic motion of `joint` before its friction slips.")
@@ -44,9 +42,6 @@ pub const KIND: JointKind = JointKind {
     ports: Ports::TWO_COORDINATES,
     build: Build::Coupling(|parameters, start| {
         let ratio = parameters.number("ratio")?;
-        if parameters.number("efficiency")? > 1.0 {
-            return Err(ParameterError::new("efficiency", "is above 1: a gear supplies no power"));
-        }
         let [first, other] = [0, 1].map(|k| start.get(k).copied().unwrap_or(0.0));
         Ok(Arc::new(Gear { ratio, offset: other - ratio * first }))
     }),
