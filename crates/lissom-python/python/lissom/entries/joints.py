@@ -204,7 +204,7 @@ class Gear(Joint):
         ratio: Change of the dependent coordinate per change of the independent one; negative for external gears [1, m/rad or rad/m]; a number.
         coordinate: Number of the coordinate of `joint`, from 1; may be omitted if there is only one; a number > 0, or nothing.
         other_coordinate: Number of the coordinate of `other`, from 1; may be omitted if there is only one; a number > 0, or nothing.
-        efficiency: Share η of the power that arrives at `other` if `joint` drives, at most 1; 2 - 1/η if `other` drives: below 0.5 it locks; default 1 [1]; a number > 0, or nothing.
+        efficiency: Share η of the power that arrives at `other` if `joint` drives; 2 - 1/η if `other` drives: below 0.5 it locks; default 1 [1]; a number from 0.01 to 1, or nothing.
         deflection: Elastic motion of `joint` before its friction slips; default 1e-4 [rad or m]; a number > 0, or nothing.
         damping: Damping of this elastic motion; default 0 [N m s/rad or N s/m]; a number ≥ 0, or nothing.
         relative: Whether it is meant to relate rotations relative to parts that turn against each other, which is warned about otherwise; default `false`; `true` or `false`, or nothing.

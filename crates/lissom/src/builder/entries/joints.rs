@@ -52,7 +52,7 @@ entries! {
         * joint: JointId = "joint", "joint with the independent coordinate";
         * other: JointId = "other", "joint with the dependent coordinate";
         * ratio: f64 = "ratio", "Change of the dependent coordinate per change of the independent one; negative for external gears \\[1, m/rad or rad/m\\]";
-        efficiency: f64 = "efficiency", "Share η of the power that arrives at `other` if `joint` drives, at most 1; 2 - 1/η if `other` drives: below 0.5 it locks; default 1 \\[1\\].";
+        efficiency: f64 = "efficiency", "Share η of the power that arrives at `other` if `joint` drives; 2 - 1/η if `other` drives: below 0.5 it locks; default 1 \\[1\\].";
         deflection: f64 = "deflection", "Elastic motion of `joint` before its friction slips; default 1e-4 \\[rad or m\\].";
         damping: f64 = "damping", "Damping of this elastic motion; default 0 \\[N m s/rad or N s/m\\].";
         relative: bool = "relative", "Whether it is meant to relate rotations relative to parts that turn against each other, which is warned about otherwise; default `false`.";

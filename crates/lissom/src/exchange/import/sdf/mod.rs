@@ -210,6 +210,12 @@ impl<'a> Reader<'a> {
                     self.robot.unsupported.push(words);
                 }
             }
+            // Softness of contacts and colours for Drake.
+            "drake:proximity_properties"
+            | "drake:perception_properties"
+            | "drake:illustration_properties" => {
+                self.robot.left_out.push(words);
+            }
             tag if SHOWN.contains(&tag) => self.shown.push(tag.to_owned()),
             tag if READ_AROUND.contains(&tag) => {}
             _ => self.robot.unsupported.push(words),
