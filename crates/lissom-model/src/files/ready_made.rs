@@ -10,7 +10,7 @@ pub const PREFIX: &str = "lissom:";
 /// A file of a sub-assembly that belongs to the program.
 #[derive(Clone, Copy, Debug)]
 pub struct ReadyMadePart {
-    /// Its name, without the prefix.
+    /// Name, without the prefix.
     pub name: &'static str,
     /// One line.
     pub summary: &'static str,
