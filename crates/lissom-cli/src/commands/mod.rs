@@ -15,6 +15,7 @@ mod manual;
 mod model_arguments;
 mod new;
 mod outcome;
+mod parts;
 mod path;
 mod plot;
 mod results;
@@ -71,6 +72,7 @@ commands! {
         New(new::New) "Write a commented model to start from: a slider crank with a flexible rod",
         Check(check::Check) "Find errors, degrees of freedom and redundant constraints",
         Kinds(kinds::Kinds) "List kinds, keys, functions and schemes of model files",
+        Parts(parts::Parts) "List ready-made parts, print one, or write it to a file",
         Schema(schema::Schema) "Print the JSON schema of model files, for completion in editors",
         Import(import::Import) "Convert a robot description (URDF, MJCF, SDF) to a model file",
     }

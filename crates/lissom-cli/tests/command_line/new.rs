@@ -1,4 +1,4 @@
-//! `lissom new`, `import`, `completions` and `man`: what they write can be used.
+//! `lissom new`, `parts`, `import`, `completions` and `man`: what they write can be used.
 
 use std::fs;
 
@@ -40,6 +40,22 @@ fn a_new_model_runs_as_it_is() {
         "{:?}",
         &sag[..5]
     );
+}
+
+#[test]
+fn ready_made_parts_are_listed_and_copied_once() {
+    let folder = Folder::new("parts");
+    let list = lissom(&["parts"], folder.path());
+    assert!(list.code == 0 && list.output.starts_with("  speed-drive           motor"), "{}", list.output);
+    let printed = lissom(&["parts", "belt-drive"], folder.path());
+    assert!(printed.code == 0 && printed.output.starts_with("# A belt between two pulleys"));
+    let copy = ["parts", "belt-drive", "--out", "belt.toml"];
+    assert_eq!(lissom(&copy, folder.path()).code, 0);
+    assert_eq!(fs::read_to_string(folder.path().join("belt.toml")).unwrap(), printed.output);
+    let again = lissom(&copy, folder.path());
+    assert!(again.code == 2 && again.errors.contains("is not overwritten"), "{}", again.errors);
+    let unknown = lissom(&["parts", "belt-driv"], folder.path());
+    assert!(unknown.code == 2 && unknown.errors.contains("did you mean `belt-drive`?"), "{}", unknown.errors);
 }
 
 /// The last value of a column of a template that runs to `end` [s] without a warning.

@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::files;
 use crate::files::matrix_market::full_matrix;
 use crate::files::npz;
+use crate::files::ready_made;
 use crate::surface::Surface;
 
 /// Why there is no text.
@@ -63,6 +64,9 @@ impl Library {
             return known.clone();
         }
         let text = match &self.folder {
+            _ if path.starts_with(ready_made::PREFIX) => {
+                ready_made::find(path).map(|part| Arc::from(part.text))
+            }
             None => {
                 Err(Missing { message: format!("`{path}` was not among the files of the model"), help: None })
             }
@@ -143,8 +147,9 @@ impl Library {
         let file = |path: &String| {
             path.split_once(".npz#").map_or_else(|| path.clone(), |(own, _)| format!("{own}.npz"))
         };
+        let is_file = |path: &&String| !path.starts_with(ready_made::PREFIX);
         let mut files: Vec<PathBuf> =
-            found.keys().chain(surfaces.keys()).map(|path| folder.join(file(path))).collect();
+            found.keys().chain(surfaces.keys()).filter(is_file).map(|path| folder.join(file(path))).collect();
         files.dedup();
         files
     }
@@ -152,6 +157,9 @@ impl Library {
 
 /// The path that `path`, written in the file `from`, leads to, without detours.
 pub(crate) fn joined(from: &str, path: &str) -> String {
+    if path.starts_with(ready_made::PREFIX) {
+        return path.to_owned();
+    }
     let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
     let is_absolute = path.starts_with('/');
     let mut parts: Vec<&str> = if is_absolute { Vec::new() } else { folder.split('/').collect() };

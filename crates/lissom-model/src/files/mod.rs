@@ -9,6 +9,7 @@ pub(crate) mod matrix_file;
 pub(crate) mod matrix_market;
 mod npz;
 pub(crate) mod polar_file;
+pub mod ready_made;
 
 use lissom_mechanics::diagnostics::Diagnose;
 use std::collections::BTreeSet;

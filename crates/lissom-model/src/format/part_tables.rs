@@ -15,7 +15,11 @@ pub(crate) fn placed_in() -> Key {
 /// Keys of a part.
 pub(crate) fn part() -> Vec<Key> {
     let mut keys = vec![
-        unitless("include", Shape::Text, "path of the file with its contents, relative to this file"),
+        unitless(
+            "include",
+            Shape::Text,
+            "path of the file with its contents, relative to this file, or `lissom:NAME` for a ready-made part",
+        ),
         unitless(
             "like",
             Shape::Text,

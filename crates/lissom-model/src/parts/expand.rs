@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::{Expanded, MAX_PARTS, Outside, PLACED_TABLES, Placement, Scope, overrides};
 use crate::files::library::{Library, joined};
+use crate::files::ready_made;
 use crate::format::part_tables;
 use crate::format::suggest;
 use crate::format::top_level::{self, VERSION};
@@ -347,17 +348,24 @@ impl Expansion<'_> {
         Some((path, text, table))
     }
 
+    /// The path as messages show it.
+    fn shown(&self, path: &str) -> String {
+        let folder = if path.starts_with(ready_made::PREFIX) { "" } else { &self.folder };
+        format!("{folder}{path}")
+    }
+
     fn read(&mut self, path: &str, span: Span) -> Option<Read> {
         let text = match self.library.text(path) {
             Ok(text) => text,
             Err(missing) => {
+                let is_file = !path.starts_with(ready_made::PREFIX);
+                let help = is_file.then(|| "paths are relative to the file that contains them".to_owned());
                 let problem = Problem::error(span, missing.message);
-                let help = "paths are relative to the file that contains them";
-                self.problems.push(problem.help(help).maybe_help(missing.help));
+                self.problems.push(problem.maybe_help(help).maybe_help(missing.help));
                 return None;
             }
         };
-        let shown = format!("{}{path}", self.folder);
+        let shown = self.shown(path);
         let length = text.len();
         let table = match text::parse(&text) {
             Ok(table) => table,
@@ -403,7 +411,7 @@ impl Expansion<'_> {
         let origin = Origin { part: full.clone(), place: key };
         let shift = match &content.file {
             Some((path, text)) => {
-                let shown = format!("{}{path}", self.folder);
+                let shown = self.shown(path);
                 let start = self.into.sources.push_shared(&shown, Arc::clone(text), Some(origin));
                 Shift::of_text(text.len(), start)
             }

@@ -8,6 +8,7 @@ mod import_faults;
 mod mjcf;
 mod mjcf_scenes;
 mod prescribed_motion;
+mod ready_made_parts;
 mod rolling;
 mod sdf;
 mod sensors;

@@ -250,7 +250,7 @@ class Part(Entry):
     """Sub-assemblies, which may be placed and repeated; their entries are named `part.name`.
 
     Args:
-        include: path of the file with its contents, relative to this file; a text, or nothing.
+        include: path of the file with its contents, relative to this file, or `lissom:NAME` for a ready-made part; a text, or nothing.
         like: part of the same table of which it is a copy, at another position and orientation; a text, or nothing.
         count: number of copies `name1`, `name2` …; `index` and `count` are parameters in each; a whole number from 1 to 20000, or nothing.
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
