@@ -209,3 +209,10 @@ fn what_the_format_cannot_say_is_named() {
     let found = unsupported(grip, &format!("{grip}friction = {{ coulomb = 0.5, stribeck = 0.1 }}\n"));
     assert!(found.contains("friction at rest of joint `grip`"), "{found}");
 }
+
+#[test]
+fn friction_of_gears_is_named() {
+    let text = ARM.replace("ratio = -3", "ratio = -3\nefficiency = 0.9");
+    let (robot, _) = robot(&text).expect("a robot");
+    assert_eq!(robot.unsupported, ["the friction of the gear `belt`"]);
+}

@@ -236,6 +236,9 @@ fn couplings(document: &Document, tree: &Tree, robot: &mut Robot) -> Result<(), 
                 let ratio =
                     joint.parameters.number("ratio").map_err(|error| ImportError::new(error.to_string()))?;
                 let offset = value(&other.value) - ratio * value(&leader.value);
+                if joint.parameters.has("efficiency") {
+                    robot.unsupported.push(format!("the friction of the gear `{name}`"));
+                }
                 let follower = robot.joints.iter_mut().find(|own| own.name == other.value);
                 match follower.filter(|own| own.follows.is_none()) {
                     Some(own) => own.follows = Some((leader.value.clone(), ratio, offset)),
