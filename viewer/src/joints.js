@@ -80,12 +80,14 @@ const SLIDING = ["prismatic", "cylindrical"];
 /** Half length of the symbol of such a joint, width of its rail, and side and thickness of the plates at the ends, in its radii. */
 const [REACH, RAIL, PLATE, THICKNESS] = [2.3, 0.4, 2.2, 0.35];
 
-/** The rail on the ground along which a joint slides over the motion, with a plate at each end; none if it does not leave its symbol. */
+/** The rail on the ground along which a joint slides over the motion, with a plate at each end; none if it does not leave its symbol, or another part comes across. */
 const rail = ({ anchors: [base, tip], axes: [axis] }, kinematics, r, theme) => {
   const direction = new THREE.Vector3(...axis);
   const [least, most] = kinematics.slide([base, tip], axis);
   if (Math.max(-least, most) < REACH * r) return null;
   const [low, high] = [Math.min(least, 0) - REACH * r, Math.max(most, 0) + REACH * r];
+  // Along a connecting rod its plates would look like collars.
+  if (kinematics.crosses([base, tip], axis, { ends: [low, high], width: PLATE * r, away: 2 * REACH * r })) return null;
   const found = new THREE.Group();
   const add = (sides, place, color) => {
     const mesh = new THREE.Mesh(new THREE.BoxGeometry(...sides), new THREE.MeshStandardMaterial({ color, roughness: 0.8 }));

@@ -271,6 +271,30 @@ export class Kinematics {
     return { low: low.map((x) => x - room), high: high.map((x) => x + room), size };
   }
 
+  /**
+   * Whether another part comes as near as `width` to a rail from `base` along an axis, between its `ends`, away from the `tip` that slides on it; looked
+   * for at fifty frames.
+   */
+  crosses([base, tip], axis, { ends: [low, high], width, away }) {
+    const { motion, count } = this;
+    const now = this.time;
+    const along = (place) => axis.reduce((sum, x, k) => sum + x * (place[k] - base.position[k]), 0);
+    const step = Math.max(1, Math.ceil(motion.frames / 50));
+    let found = false;
+    for (let frame = 0; frame < motion.frames && !found; frame += step) {
+      this.set(motion.times[frame]);
+      const slider = along(this.point(tip));
+      for (let node = 1; node < count && !found; node++) {
+        const place = this.positions.subarray(3 * node, 3 * node + 3);
+        const way = along(place);
+        const across = Math.hypot(...axis.map((x, k) => place[k] - base.position[k] - way * x));
+        found = node !== tip.node && way > low && way < high && across < width && Math.abs(way - slider) > away;
+      }
+    }
+    this.set(now);
+    return found;
+  }
+
   /** Least and greatest distance over all frames along an axis from a place on the ground to one that slides along it, without turning about others. */
   slide([base, tip], axis) {
     const { motion, count } = this;

@@ -356,7 +356,7 @@ impl Geometry {
     }
 
     /// Adds the rail on the ground along which a joint slides over the motion, with a plate at each end, unless the joint does
-    /// not leave its symbol or travels far.
+    /// not leave its symbol or travels far, or another part comes across.
     fn rail(
         &mut self,
         name: &str,
@@ -374,6 +374,21 @@ impl Geometry {
             return;
         }
         let (low, high) = (least - half, most + half);
+        // Along a connecting rod its plates would look like collars: other parts, away from the one that slides.
+        let crosses = |frame: usize, node: NodeId| {
+            let way = motion.pose(frame, node).position - base;
+            let place = axis.dot(&way);
+            let is_across = (way - place * axis).norm() < RAIL_PLATE[0] * radius;
+            is_across && (low..high).contains(&place) && (place - slide(frame)).abs() > 2.0 * half
+        };
+        let others = || (1..motion.header().nodes.len()).map(NodeId::new).filter(|node| *node != tip.node);
+        let frames = motion.times().len();
+        if (0..frames)
+            .step_by(frames.div_ceil(50).max(1))
+            .any(|frame| others().any(|node| crosses(frame, node)))
+        {
+            return;
+        }
         let at = |place: f64| Pose::new(turn_to(&axis), base + place * axis);
         let [side, thickness] = RAIL_PLATE.map(|share| share * radius);
         let mut plates = Mesh::block([side, thickness, side]).moved(&at(low));
