@@ -66,15 +66,22 @@ export const parts = ({ root, folder, view, open }) => ({
         assert.ok((await page.locator("#selection table").textContent()).includes(texts[0][1]));
       }
     }
-    // The rail is as long as the motion of the piston, with the symbol at both ends.
-    const [rail, travel] = await page.evaluate(() => {
-      const { values } = lissom.history.columns.find(({ name }) => name === "of_cylinder.displacement");
+    // Along its rod a piston has no rail; that of a mass alone is as long as the motion, with the symbol at both ends.
+    const lengthOf = (page, joint) => page.evaluate((joint) => {
       const lengths = [];
-      lissom.model.parts.get("cylinder").object.traverse(({ geometry }) => lengths.push(geometry?.parameters?.height ?? 0));
-      return [Math.max(...lengths), Math.max(...values, 0) - Math.min(...values, 0)];
-    });
-    assert.ok(rail > travel && rail < 2 * travel, `a rail of ${rail} m for ${travel} m`);
+      lissom.model.parts.get(joint).object.traverse(({ geometry }) => lengths.push(geometry?.parameters?.height ?? 0));
+      return Math.max(...lengths);
+    }, joint);
+    const none = await lengthOf(page, "cylinder");
+    assert.ok(none < 0.03, `${none} m`);
     assert.deepEqual(complaints(), []);
+    const alone = await open(browser, join(view(join(root, "examples/bouncing-mass.toml")), "view.html"));
+    const travel = await alone.page.evaluate(() => {
+      const { values } = lissom.history.columns.find(({ name }) => name === "guide.displacement");
+      return Math.max(...values, 0) - Math.min(...values, 0);
+    });
+    const rail = await lengthOf(alone.page, "guide");
+    assert.ok(rail > travel && rail < 2 * travel, `a rail of ${rail} m for ${travel} m`);
   },
   "plates are at the ends of springs on the ground": async (browser) => {
     const text = `lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.load]\nmass = 1\ninertia = { box = [0.2, 0.2, 0.2] }\nposition = [0, 0, -1]\n[springs.coil]\nkind = "point"\nbase = "ground"\ntip = "load"\nat_base = [0.5, 0, 0]\nat_tip = [0.5, 0, -1]\nstiffness = 1e3\n[analysis]\nkind = "dynamics"\nend = 0.1\nstep = 0.01\n`;
