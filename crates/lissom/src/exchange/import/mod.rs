@@ -65,8 +65,8 @@ pub struct Robot {
     pub pose: Motion,
     /// Links of the robot; the first is the root.
     pub links: Vec<Link>,
-    /// Whether the root is the world, which cannot move.
-    pub is_root_the_world: bool,
+    /// What the root is.
+    pub root: RobotRoot,
     /// Joints of the robot, each after the parent joint.
     pub joints: Vec<RobotJoint>,
     /// Joints that close loops.
@@ -92,7 +92,37 @@ pub struct Robot {
     pub unsupported: Vec<String>,
     /// Faults of the description, one sentence each: a robot that has any is rejected by [`model_text`].
     pub obstacles: Vec<String>,
+/// The first link of a robot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RobotRoot {
+    /// The world, which cannot move.
+    World,
+    /// A link with this pose in global axes [m].
+    Link(Motion),
 }
+
+impl Default for RobotRoot {
+    fn default() -> Self {
+        Self::Link(Motion::identity())
+    }
+}
+
+impl RobotRoot {
+    /// Pose in global axes [m].
+    pub fn pose(&self) -> Motion {
+        match self {
+            Self::World => Motion::identity(),
+            Self::Link(pose) => *pose,
+        }
+    }
+}
+
+}
+    /// Whether the root is the world.
+    pub fn is_root_the_world(&self) -> bool {
+        self.root == RobotRoot::World
+    }
+
 
 impl Robot {
     /// Whether the root and all that is fixed to it have mass, and it is not the world: it is a matter of choice whether it moves.
@@ -104,7 +134,7 @@ impl Robot {
             }
         }
         let has_mass = fixed.iter().any(|&link| self.links[link].inertia.is_some());
-        !self.is_root_the_world && has_mass && self.links[0].name != "world"
+        !self.is_root_the_world() && has_mass && self.links[0].name != "world"
     }
 
     /// Whether nothing moves unless the root does: a thing and no machine.

@@ -363,7 +363,7 @@ fn open_loops(robot: &Robot, frames: &[Motion]) -> Vec<String> {
 /// Elements that act on the robot and cannot be modelled.
 fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
     let mut obstacles = Vec::new();
-    if robot.is_root_the_world && options.root == Root::Floating {
+    if robot.is_root_the_world() && options.root == Root::Floating {
         obstacles.push(
             "the root of this description is the world, which cannot move: bodies that move freely must be free in the \
              description"
@@ -382,7 +382,7 @@ fn unsupported(robot: &Robot, options: Options) -> Vec<String> {
         obstacles
             .push("no link of the description has mass: add an <inertial> to those that move".to_owned());
     }
-    if robot.obstacles.is_empty() && obstacles.is_empty() && robot.is_root_the_world && is_at_rest(robot) {
+    if robot.obstacles.is_empty() && obstacles.is_empty() && robot.is_root_the_world() && is_at_rest(robot) {
         obstacles.push("no body of the description moves: there is nothing to simulate".to_owned());
     }
     for joint in robot.joints.iter().filter(|joint| !joint.moves()) {
@@ -412,7 +412,7 @@ fn is_at_rest(robot: &Robot) -> bool {
 /// Initial frames and twists of all links, and the link at the root of the group of each.
 fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector6>, Vec<usize>) {
     let count = robot.links.len();
-    let mut frames = vec![robot.pose; count];
+    let mut frames = vec![robot.root.pose(); count];
     let mut twists = vec![root; count];
     let mut group_of: Vec<usize> = (0..count).collect();
     for joint in &robot.joints {
@@ -654,7 +654,7 @@ fn write_compensations(
 /// What is omitted from the model of a robot, one sentence each; what its contacts cannot express is only in the model.
 pub fn omissions(robot: &Robot, options: Options) -> Vec<String> {
     let mut all = robot.left_out.clone();
-    if options.motors == Motors::Omitted && robot.is_root_the_world {
+    if options.motors == Motors::Omitted && robot.is_root_the_world() {
         match robot.motors.len() {
             0 => {}
             1 => all.push("the command of 1 motor: `--motors` writes an input".to_owned()),

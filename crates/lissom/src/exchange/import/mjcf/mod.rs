@@ -26,7 +26,8 @@ use self::tree::{Inertias, Node, Settings};
 use super::model_text::{carried, together};
 use super::xml;
 use super::{
-    ContactRules, Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, WeightCompensation, from_z,
+    ContactRules, Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, RobotRoot, WeightCompensation,
+    from_z,
 };
 
 /// Elements of a body that are only drawn or measured.
@@ -63,7 +64,7 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
             name: root.attribute("model").unwrap_or("robot").to_owned(),
             gravity: outside::gravity(&root)?,
             links: vec![Link::new("world".to_owned(), None, String::new())],
-            is_root_the_world: true,
+            root: RobotRoot::World,
             contacts: ContactRules { filters_parents: true, ..ContactRules::default() },
             obstacles,
             ..Robot::default()

@@ -16,7 +16,7 @@ use self::frames::{Carrier, Frames, Scope};
 use self::joint::Placed;
 use self::link::is_inertial_unit;
 use super::xml;
-use super::{Closure, ContactRules, Freedom, ImportError, Link, Robot, RobotJoint};
+use super::{Closure, ContactRules, Freedom, ImportError, Link, Robot, RobotJoint, RobotRoot};
 
 /// Gravity of a world without a value [m/s²].
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.8];
@@ -85,7 +85,7 @@ pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, Impo
         robot: Robot {
             name: top.attribute("name").unwrap_or("robot").to_owned(),
             gravity: GRAVITY.into(),
-            is_root_the_world: !worlds.is_empty(),
+            root: if worlds.is_empty() { RobotRoot::default() } else { RobotRoot::World },
             contacts: ContactRules {
                 filters_parents: true,
                 takes_lower_friction: true,
@@ -327,13 +327,13 @@ impl<'a> Reader<'a> {
             }
             closes.push(is_closure);
         }
-        let is_root_the_world = self.robot.is_root_the_world
+        let is_root_the_world = self.robot.is_root_the_world()
             || self.models.len() != 1
             || self.links.iter().any(|link| link.around.is_static)
             || joints.iter().any(|joint| joint.parent.is_none())
             || is_carried.iter().filter(|carried| !**carried).count() != 1;
-        self.robot.is_root_the_world = is_root_the_world;
         if is_root_the_world {
+            self.robot.root = RobotRoot::World;
             self.robot.links.push(Link::new("world".to_owned(), None, String::new()));
         }
         let shift = usize::from(is_root_the_world);
@@ -369,7 +369,7 @@ impl<'a> Reader<'a> {
                 let free = to_world(&self, link, Freedom::Floating);
                 self.robot.joints.push(free);
             } else {
-                self.robot.pose = poses[self.links[link].frame];
+                self.robot.root = RobotRoot::Link(poses[self.links[link].frame]);
             }
         }
         self.notes();
