@@ -278,17 +278,18 @@ export class Kinematics {
   crosses([base, tip], axis, { ends: [low, high], width, away }) {
     const { motion, count } = this;
     const now = this.time;
-    const along = (place) => axis.reduce((sum, x, k) => sum + x * (place[k] - base.position[k]), 0);
+    const [[ax, ay, az], [bx, by, bz]] = [axis, base.position];
+    const along = (x, y, z) => ax * (x - bx) + ay * (y - by) + az * (z - bz);
     const step = Math.max(1, Math.ceil(motion.frames / 50));
     let found = false;
     for (let frame = 0; frame < motion.frames && !found; frame += step) {
       this.set(motion.times[frame]);
-      const slider = along(this.point(tip));
+      const slider = along(...this.point(tip));
       for (let node = 1; node < count && !found; node++) {
-        const place = this.positions.subarray(3 * node, 3 * node + 3);
-        const way = along(place);
-        const across = Math.hypot(...axis.map((x, k) => place[k] - base.position[k] - way * x));
-        found = node !== tip.node && way > low && way < high && across < width && Math.abs(way - slider) > away;
+        const [x, y, z] = [this.positions[3 * node], this.positions[3 * node + 1], this.positions[3 * node + 2]];
+        const way = along(x, y, z);
+        if (node === tip.node || way <= low || way >= high || Math.abs(way - slider) <= away) continue;
+        found = Math.hypot(x - bx - way * ax, y - by - way * ay, z - bz - way * az) < width;
       }
     }
     this.set(now);

@@ -376,7 +376,9 @@ impl Geometry {
         let (low, high) = (least - half, most + half);
         // Along a connecting rod its plates would look like collars: other parts, away from the one that slides.
         let crosses = |frame: usize, node: NodeId| {
-            let way = motion.pose(frame, node).position - base;
+            let moved = &motion.frame(frame)[3 * node.index()..];
+            let start = motion.reference()[node].position - base;
+            let way = start + Vector3::from_fn(|k, _| f64::from(moved[k]));
             let place = axis.dot(&way);
             let is_across = (way - place * axis).norm() < RAIL_PLATE[0] * radius;
             is_across && (low..high).contains(&place) && (place - slide(frame)).abs() > 2.0 * half
