@@ -8,7 +8,7 @@ use lissom_motion::{Motion, Rotation, Vector3};
 use roxmltree::Node;
 
 use super::visuals::shade;
-use super::xml::{self, Lines, children, location};
+use super::xml::{self, Lines, children, is_foreign, location};
 use super::{
     Freedom, ImportError, Link, LinkInertia, MotorRating, Robot, RobotJoint, Visual, VisualShape, from_z,
 };
@@ -56,7 +56,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     let Notes { obstacles, left_out, planar, .. } = notes;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
     // Joints and springs of other programs, which the format does not have.
-    let foreign = root.children().filter(|own| own.tag_name().namespace().is_some());
+    let foreign = root.children().filter(|own| is_foreign(*own));
     let words = |own: Node<'_, '_>| {
         let prefix =
             own.tag_name().namespace().and_then(|space| own.lookup_prefix(space)).unwrap_or_default();

@@ -1,6 +1,6 @@
 //! Common functions of readers of XML: parsing, positions in the text, numbers.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::{Document, Node};
 
@@ -25,40 +25,47 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportError> {
 
 /// The text with declarations of the prefixes of names that it lacks, which programs that know no namespaces accept.
 pub(super) fn with_prefixes(mut text: String) -> String {
+    let mut declared = BTreeSet::new();
     while let Err(roxmltree::Error::UnknownNamespace(prefix, _)) = Document::parse(&text) {
-        let is_root = |&(at, _): &(usize, &str)| text[at + 1..].starts_with(char::is_alphabetic);
-        let Some((root, _)) = text.match_indices('<').find(is_root) else { break };
-        let name = text[root..].find(|sign: char| sign.is_whitespace() || sign == '>' || sign == '/');
-        let Some(length) = name else { break };
-        text.insert_str(root + length, &format!(" xmlns:{prefix}=\"{prefix}\""));
+        let Some((at, _)) = tags(&text).find(|(_, tag)| !tag.starts_with("<!") && !tag.starts_with("<?"))
+        else {
+            break;
+        };
+        let name = text[at..].find(|sign: char| sign.is_whitespace() || sign == '>' || sign == '/');
+        let Some(length) = name.filter(|_| declared.insert(prefix.clone())) else { break };
+        text.insert_str(at + length, &format!(" xmlns:{prefix}=\"{prefix}\""));
     }
     text
 }
 
 /// Where the first tag begins that is nested more deeply than [`MAX_DEPTH`], by a scan of the text: parsers are recursive, too.
 pub(super) fn too_deep(text: &str) -> Option<usize> {
-    let (mut depth, mut from) = (0_usize, 0);
-    while let Some(at) = text[from..].find('<').map(|at| from + at) {
+    let mut depth = 0_usize;
+    tags(text).find_map(|(at, tag)| {
+        match tag.as_bytes().get(1) {
+            Some(b'!' | b'?') => {}
+            Some(b'/') => depth = depth.saturating_sub(1),
+            _ if tag.ends_with('/') => {}
+            _ => depth += 1,
+        }
+        (depth > MAX_DEPTH).then_some(at)
+    })
+}
+
+/// Tags, comments and instructions with their positions, without the sign that ends them; what does not end is reported by the parser.
+fn tags(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        let at = from + text[from..].find('<')?;
         let tag = &text[at..];
         let end = match tag {
             _ if tag.starts_with("<!--") => tag.find("-->"),
             _ if tag.starts_with("<![CDATA[") => tag.find("]]>"),
             _ => end_of_tag(tag),
-        };
-        // What does not end is reported by the parser.
-        let end = at + end?;
-        match tag.as_bytes().get(1) {
-            Some(b'!' | b'?') => {}
-            Some(b'/') => depth = depth.saturating_sub(1),
-            _ if text[..end].ends_with('/') => {}
-            _ => depth += 1,
-        }
-        if depth > MAX_DEPTH {
-            return Some(at);
-        }
-        from = end;
-    }
-    None
+        }?;
+        from = at + end;
+        Some((at, &tag[..end]))
+    })
 }
 
 /// Position of the end of a tag, outside of the values of its attributes.
@@ -75,13 +82,19 @@ fn end_of_tag(tag: &str) -> Option<usize> {
     })
 }
 
+/// Whether an element belongs to another format than the root.
+pub(super) fn is_foreign(node: Node<'_, '_>) -> bool {
+    node.is_element() && node.tag_name().namespace() != node.document().root_element().tag_name().namespace()
+}
+
 /// Name of the root element.
 pub(super) fn root_tag(text: &str) -> Result<String, ImportError> {
     Ok(parse(text)?.root_element().tag_name().name().to_owned())
 }
 
+/// Children of this tag, without those of other formats.
 pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(move |child| child.has_tag_name(tag) && child.tag_name().namespace().is_none())
+    node.children().filter(move |child| child.has_tag_name(tag) && !is_foreign(*child))
 }
 
 /// Target of a processing instruction after which the text is that of another file, from a line on: `line file`, without a
