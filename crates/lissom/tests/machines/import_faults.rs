@@ -374,7 +374,28 @@ fn descriptions_of_other_programs_are_read() {
     assert_eq!(robot.joints.len(), 1);
     let error = model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string();
     assert!(error.contains("<drake:joint>"), "{error}");
+    // Prefixes are declared at the root, whatever stands before it; a name of one program for all elements changes nothing.
+    for (from, to) in
+        [("<robot ", "<!-- <a> --><robot "), ("<robot ", "<robot xmlns='http://drake.mit.edu' ")]
+    {
+        std::fs::write(&path, text.replace("FOREIGN", "<drake:note/>").replace(from, to)).unwrap();
+        assert_eq!(from_file(&path).expect("a robot").joints.len(), 1, "{to}");
+    }
     let empty = from_description("<robot name='r'><link name='a'/></robot>").expect("a robot");
     let error = model_text(&empty, &Pose::default(), Options::default()).unwrap_err().to_string();
     assert!(error.contains("no link of the description has mass"), "{error}");
+}
+
+/// Outputs of joints, contacts, the energy and sensors have different names, whatever those of the description are.
+#[test]
+fn outputs_have_names_of_their_own() {
+    let text = "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body name='a' pos='0 0 1'><joint name='touching' type='slide' axis='0 0 1'/>\
+                <geom size='0.1'/><body name='b' pos='1 0 0'><joint name='energy'/><geom size='0.1' pos='0.3 0 0'/></body></body></worldbody>\
+                <sensor><jointpos name='touching_' joint='energy'/></sensor></mujoco>";
+    let robot = from_description(text).expect("a robot");
+    let text = model_text(&robot, &Pose::default(), Options::default()).unwrap();
+    for kind in ["relative", "contact_force", "energy", "expression"] {
+        assert!(text.contains(&format!("kind = \"{kind}\"")), "{kind}: {text}");
+    }
+    crate::support::runs::run(&text, &[("analysis.end", "0.01")]);
 }

@@ -61,8 +61,6 @@ pub struct Robot {
     pub name: String,
     /// Acceleration of gravity, in global axes [m/s²].
     pub gravity: Vector3,
-    /// Pose of the root, in global axes [m].
-    pub pose: Motion,
     /// Links of the robot; the first is the root.
     pub links: Vec<Link>,
     /// What the root is.
@@ -92,6 +90,8 @@ pub struct Robot {
     pub unsupported: Vec<String>,
     /// Faults of the description, one sentence each: a robot that has any is rejected by [`model_text`].
     pub obstacles: Vec<String>,
+}
+
 /// The first link of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RobotRoot {
@@ -117,14 +117,12 @@ impl RobotRoot {
     }
 }
 
-}
+impl Robot {
     /// Whether the root is the world.
     pub fn is_root_the_world(&self) -> bool {
         self.root == RobotRoot::World
     }
 
-
-impl Robot {
     /// Whether the root and all that is fixed to it have mass, and it is not the world: it is a matter of choice whether it moves.
     pub fn may_float(&self) -> bool {
         let mut fixed = BTreeSet::from([0]);

@@ -187,8 +187,9 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     write_ropes(&mut text, robot, &frames, &group_name);
     write_compensations(&mut text, robot, &frames, &groups, &number);
     text.push_str(&contacts.text);
-    text.push_str(&outputs(robot, &placed, &contacts));
-    write_sensors(&mut text, robot, &placed, |link, frame| {
+    let mut taken = placed.iter().map(|own| own.own.clone()).collect();
+    text.push_str(&outputs(robot, &placed, &contacts, &mut taken));
+    write_sensors(&mut text, robot, (&placed, &mut taken), |link, frame| {
         let group = &groups[number[link]];
         // The ground has the global axes, wherever the root is.
         let pose = if group.name == "ground" { Motion::identity() } else { group.frame };
@@ -526,16 +527,18 @@ fn header(robot: &Robot, options: Options, start: &Start, contacts: &Contacts) -
     text
 }
 
-/// Outputs of all joints, and of the energy.
-fn outputs(robot: &Robot, placed: &[Placed], contacts: &Contacts) -> String {
+/// Outputs of all joints and contacts, and of the energy; `taken` are names of outputs.
+fn outputs(robot: &Robot, placed: &[Placed], contacts: &Contacts, taken: &mut BTreeSet<String>) -> String {
     let mut text = String::new();
     for place in robot.joints.iter().zip(placed).filter(|(joint, _)| joint.moves()).map(|(_, place)| place) {
         let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.own);
     }
     for name in &contacts.names {
-        let _ = write!(text, "\n[outputs.{name}]\nkind = \"contact_force\"\nof = \"{name}\"\n");
+        let own = free_name(name, taken);
+        let _ = write!(text, "\n[outputs.{own}]\nkind = \"contact_force\"\nof = \"{name}\"\n");
     }
-    text + "\n[outputs.energy]\nkind = \"energy\"\n"
+    let _ = write!(text, "\n[outputs.{}]\nkind = \"energy\"\n", free_name("energy", taken));
+    text
 }
 
 fn analysis(robot: &Robot, contacts: &Contacts) -> String {

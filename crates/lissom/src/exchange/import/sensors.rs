@@ -86,17 +86,15 @@ pub(super) struct Mount<'a> {
     pub(super) sensor: Motion,
 }
 
-/// Outputs of all sensors; `mount` gives the body of a frame in a link.
+/// Outputs of all sensors, besides those with names that are `taken`; `mount` gives the body of a frame in a link.
 pub(super) fn write_sensors<'a>(
     text: &mut String,
     robot: &Robot,
-    placed: &[Placed],
+    (placed, taken): (&[Placed], &mut BTreeSet<String>),
     mount: impl Fn(usize, &Motion) -> Mount<'a>,
 ) {
-    let mut taken: BTreeSet<String> = placed.iter().map(|own| own.own.clone()).collect();
-    taken.insert("energy".to_owned());
     for sensor in &robot.sensors {
-        let name = free_name(&sensor.name, &mut taken);
+        let name = free_name(&sensor.name, taken);
         match &sensor.quantity {
             Measured::Coordinate(joint) | Measured::Rate(joint) => {
                 let is_rate = matches!(sensor.quantity, Measured::Rate(_));
@@ -110,7 +108,7 @@ pub(super) fn write_sensors<'a>(
             }
             Measured::Motion { kind, link, frame } => {
                 let mount = mount(*link, frame);
-                write_motion(text, &name, *kind, &mount, &robot.gravity, &mut taken);
+                write_motion(text, &name, *kind, &mount, &robot.gravity, taken);
             }
         }
     }
