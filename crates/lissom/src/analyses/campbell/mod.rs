@@ -249,7 +249,10 @@ pub fn campbell(model: &Model, request: &CampbellRequest) -> Result<CampbellRepo
     for k in 0..=last {
         let value = if k == last { to } else { from + (to - from) * k as f64 / last as f64 };
         match search.point(value, points.last(), &mut lines) {
-            Ok(point) => points.push(point),
+            Ok(point) => {
+                search.check_shapes(&point, None);
+                points.push(point);
+            }
             // Other speeds may have a steady rotation.
             Err(error @ CampbellError::Modes { .. }) if check().is_ok() => {
                 failed.push((value, error.diagnostic()));
@@ -335,16 +338,20 @@ impl Search<'_> {
             other => failed(other),
         })?;
         self.warnings.extend(doubts);
-        let point = point.ok_or_else(|| CampbellError::Unlike(path.clone()))?;
-        for of in point.modes.iter().filter(|of| of.assurance.is_some_and(|alike| alike < DOUBTFUL)) {
+        point.ok_or_else(|| CampbellError::Unlike(path.clone()))
+    }
+
+    /// Warns of lines that are continued to `point` between shapes that are hardly alike: of all lines, or of one.
+    fn check_shapes(&mut self, point: &Point, line: Option<usize>) {
+        let unlike = |of: &&PointMode| of.assurance.is_some_and(|alike| alike < DOUBTFUL);
+        for of in point.modes.iter().filter(unlike).filter(|of| line.is_none_or(|line| of.line == line)) {
             self.warnings.push(AnalysisWarning::UnlikeShapes {
                 line: of.line + 1,
-                path: path.clone(),
-                value,
+                path: self.request.vary.path.clone(),
+                value: point.value,
                 correlation: of.assurance.unwrap_or(0.0),
             });
         }
-        Ok(point)
     }
 
     /// Intersections of lines with rays: located between two values, then refined by further solutions.
@@ -383,6 +390,7 @@ impl Search<'_> {
             // information.
             let Ok(middle) = self.point(value, Some(&low), &mut lines) else { break };
             let Some(own) = gap(&middle).filter(|own| own.2 == beyond.2) else { break };
+            self.check_shapes(&middle, Some(line));
             let is_found = own.0.abs() <= CROSSED * own.1;
             if own.0 * at.0 > 0.0 {
                 (low, at) = (middle, own);
