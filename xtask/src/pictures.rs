@@ -242,7 +242,7 @@ fn joints() -> Result<Vec<u8>, PicturesError> {
 /// The diagram of the overhung disc, as the bytes of an SVG file.
 fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
     let vary = Variation { path: "parameters.speed".to_owned(), from: 5.0, to: 200.0, values: 27 };
-    let request = CampbellRequest { vary, count: 4, shift: None, rays: vec![1, 2, 3] };
+    let request = CampbellRequest { vary, count: 4, shift: None, averaged: false, rays: vec![1, 2, 3] };
     let found = campbell(&Model::from_text("rotor.toml", ROTOR), &request)?;
     Ok(found.diagram("Overhung disc").and_then(|drawn| drawn.svg()).map_err(FolderError::from)?.into_bytes())
 }

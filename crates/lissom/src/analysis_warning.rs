@@ -84,6 +84,11 @@ pub enum AnalysisWarning {
         /// The correlation of the shapes.
         correlation: f64,
     },
+    /// Coefficients change with the azimuth, and modes are those of their mean.
+    VariesWithAzimuth {
+        /// Largest relative change of an eigenvalue.
+        change: f64,
+    },
     /// The number that is varied turns nothing.
     NothingRotates {
         /// The varied number.
@@ -195,6 +200,14 @@ catalogued! {
             meaning: "Modes of a rotor are computed in axes that do not rotate with it, in which its equations have constant \
                       coefficients.",
             advice: "Compare frequencies with measurements in axes at rest.",
+        }
+        VariesWithAzimuth { change => change } => "varies-with-azimuth" {
+            cause: "modes are those of the mean over the azimuth: with the coefficients of single azimuths an eigenvalue would change by \
+                    a fraction of {change:.2}",
+            remedy: "compare with a simulation in time",
+            meaning: "Modes of a rotor under loads fixed in space are computed from the mean of its equations over a turn, which omits effects of \
+                      second order in what changes.",
+            advice: "Frequencies are accurate as long as the change is small; parametric resonances are not found.",
         }
         RollingAxes {} => "rolling-axes" {
             cause: "the coefficients are constant only in axes that do not spin with the wheels: frequencies are those in these axes, \

@@ -163,6 +163,7 @@ fn a_diagram_of_a_light_damped_shaft_converges_at_every_speed() {
         vary: "parameters.speed=100:400:7".parse().unwrap(),
         count: 3,
         shift: None,
+        averaged: false,
         rays: vec![1],
     };
     let report = campbell(&Model::from_text("model.toml", DAMPED_ROTOR), &request)

@@ -1,8 +1,9 @@
 //! The generator G of the transformation of a rotor's displacements to axes at rest: see `multiblade`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lissom_solver::Pattern;
+use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use super::mode::Mode;
@@ -76,6 +77,34 @@ impl Generator {
                 }
             }
         }
+    }
+
+    /// For each column the rows that exp(ψ G) connects with it, in ascending order.
+    pub(super) fn closed_sets(&self) -> Vec<Vec<usize>> {
+        let of = |first: usize| {
+            let mut rows = BTreeSet::from([first]);
+            let mut open = vec![first];
+            while let Some(column) = open.pop() {
+                open.extend(self.columns[column].iter().map(|&(row, _)| row).filter(|&row| rows.insert(row)));
+            }
+            rows.into_iter().collect()
+        };
+        (0..self.columns.len()).map(of).collect()
+    }
+
+    /// exp(ψ G) by column, for the rows `closed_sets` of each.
+    pub(super) fn exponential(&self, angle: f64, closed_sets: &[Vec<usize>]) -> Vec<Vec<(usize, f64)>> {
+        let of = |(column, rows): (usize, &Vec<usize>)| {
+            let position = |row: usize| rows.binary_search(&row);
+            let generator = DMatrix::from_fn(rows.len(), rows.len(), |i, j| {
+                let entries = self.columns[rows[j]].iter().filter(|(row, _)| *row == rows[i]);
+                angle * entries.map(|(_, value)| value).sum::<f64>()
+            });
+            let exponential = generator.exp();
+            let own = position(column).unwrap_or(0);
+            rows.iter().zip(exponential.column(own).iter()).map(|(&row, &value)| (row, value)).collect()
+        };
+        closed_sets.iter().enumerate().map(of).collect()
     }
 
     pub(super) fn squared(&self) -> Self {

@@ -10,6 +10,7 @@
 //! state. No constraint is eliminated: every solve uses the sparse saddle-point matrix, without pivoting.
 
 mod arnoldi;
+mod averaged;
 mod buckling;
 mod carried_fields;
 mod carried_points;
@@ -40,6 +41,7 @@ mod steady;
 mod velocity_constraints;
 mod whirl;
 
+pub use averaged::AveragedModel;
 pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use energy_shares::EffectiveMasses;
 pub(crate) use inertia::{Verdict, is_stable_like, verdict};
@@ -53,7 +55,7 @@ pub use reduction::{Assembly, Reduction, ReductionError};
 pub use response::{FrequencyResponse, ResponseError};
 pub use shapes::NodeShape;
 pub use state_space::{StateSpace, StateSpaceError};
-pub use steady::{ModeDeviation, SteadyError, steady};
+pub use steady::{ModeDeviation, SteadyError, steady, steady_on_average};
 pub use whirl::Whirl;
 
 /// Eigenvalues of a search and of an inverse iteration that differ by less than this fraction are equal. Also the allowed residual of

@@ -31,7 +31,7 @@ use crate::kinematics::{Kinematics, LOCKED, NodeId};
 use crate::round_off;
 
 /// Maximum number of blades.
-const MAX_BLADES: usize = 12;
+pub(super) const MAX_BLADES: usize = 12;
 
 /// Why there are no multi-blade coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -224,7 +224,7 @@ impl Axis {
 }
 
 /// Generator for a rotor that is invariant under rotation by 1/N of a turn, for the largest such N.
-fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
+pub(super) fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     let axis = Axis::of(model)?;
     let at = model.kinematics();
     let mut columns = vec![Vec::new(); model.coordinate_count()];

@@ -17,13 +17,12 @@ use num_complex::Complex64;
 use super::carried_fields::CarriedFields;
 use super::krylov::{Noise, product};
 use super::mode::Mode;
-use super::model::{LinearError, LinearModel, nothing, point, stopped};
+use super::model::{LinearError, LinearModel, stopped};
 use super::shifted::ComplexShift;
 use super::velocity_constraints::refuse;
-use super::{SLOW_RATE, rolling_axes};
+use super::{SLOW_RATE, averaged};
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
-use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{CoordinateId, LOCKED, NodeId, NodeMotion, Quantity};
 use crate::round_off;
 use crate::scaling::Representative;
@@ -33,7 +32,7 @@ use crate::tuning::MAX_ITERATIONS;
 /// Rotation of a state for the check of constant coefficients [rad].
 const TURN: f64 = 0.7;
 /// The shift of this check, relative to the eigenvalue.
-const RELATIVE_SHIFT: f64 = 0.9;
+pub(super) const RELATIVE_SHIFT: f64 = 0.9;
 /// Largest correction at once, in angles and fractions of the model's length: forces of constraints from a longer one are so wrong
 /// that their geometric stiffness makes the next tangent singular.
 const MAX_CORRECTION: f64 = 0.05;
@@ -88,6 +87,24 @@ impl From<LinearError> for SteadyError {
 /// # Errors
 /// If nothing rotates, or there are no such positions.
 pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
+    steady_over(system, state, solver, &[0.0])
+}
+
+/// The mean state of a rotation whose loads change with the azimuth, such as gravity across the axis: the mean of the residual over a turn
+/// vanishes.
+///
+/// # Errors
+/// If nothing rotates, or there are no such positions.
+pub fn steady_on_average(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
+    steady_over(system, state, solver, &averaged::azimuths())
+}
+
+fn steady_over(
+    system: &System,
+    state: &State,
+    solver: &SolverKind,
+    azimuths: &[f64],
+) -> Result<State, SteadyError> {
     let given = state;
     let mut state = state.clone();
     let layout = system.layout();
@@ -128,12 +145,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         for (violation, start) in violations.iter_mut().zip(&start) {
             *violation -= start;
         }
-        let (still, unchanged) = nothing(&state.kinematics);
-        state.kinematics.show_multipliers(&state.multipliers);
-        let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &violations);
-        system.residual(&at, &mut residual);
-        system.linearize(&at, Chart::RelativeToDrift(&state.kinematics.nodes), &mut parts);
-        parts.fold_multipliers();
+        averaged::mean_equations(system, &state, &violations, azimuths, (&mut residual, &mut parts));
         shifted
             .factor(&parts, Complex64::from(SLOW_RATE * rate))
             .map_err(|error| stopped(system, time, &error))?;
@@ -230,28 +242,7 @@ impl<'a> LinearModel<'a> {
     /// # Errors
     /// If there is no linear model there.
     pub fn turned(&self) -> Result<LinearModel<'a>, LinearError> {
-        let mut kinematics = self.at.clone();
-        let rate = self.spin().norm();
-        let later = if rate > 0.0 { TURN / rate } else { 0.0 };
-        let spins = rolling_axes::spins(self.system, &self.at);
-        for (node, spin) in kinematics.nodes.iter_mut().zip(&spins) {
-            (node.frame, node.twist) = rolling_axes::later(node.frame, &node.twist, spin, later);
-        }
-        for coordinate in &mut kinematics.coordinates {
-            coordinate.value += later * coordinate.rate;
-        }
-        let size = self.multipliers().len();
-        let state = State {
-            position_remainders: vec![Vector3::zeros(); kinematics.nodes.len()],
-            algorithmic: vec![0.0; self.coordinate_count()],
-            violations: vec![0.0; size],
-            multipliers: self.multipliers().to_vec(),
-            time_remainder: 0.0,
-            accumulated: Vec::new(),
-            touches: Vec::new(),
-            kinematics,
-        };
-        LinearModel::of(self.system, &state, self.solver)
+        self.rotated_by(TURN)
     }
 
     /// Deviation of a mode of this model from a solution of `other`, the model after a fraction of a turn. It is 0 if the
@@ -260,6 +251,16 @@ impl<'a> LinearModel<'a> {
     /// # Errors
     /// If the matrices cannot be factorised.
     pub fn deviation_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<ModeDeviation, LinearError> {
+        self.deviation_at(mode, other, TURN)
+    }
+
+    /// Deviation of a mode from a solution of `other`, the model after a rotation by `angle`.
+    pub(super) fn deviation_at(
+        &self,
+        mode: &Mode,
+        other: &LinearModel<'_>,
+        angle: f64,
+    ) -> Result<ModeDeviation, LinearError> {
         let s = mode.eigenvalue;
         if s.norm() == 0.0 {
             return Ok(ModeDeviation { size: 0.0, round_off: 0.0 });
@@ -272,7 +273,7 @@ impl<'a> LinearModel<'a> {
         let mut terms = vec![0.0; pattern.size()];
         let count = self.coordinate_count();
         let [places, rates, accelerations] = match self.generator() {
-            Some(generator) => generator.in_nodes(mode, TURN),
+            Some(generator) => generator.in_nodes(mode, angle),
             None => [0, 1, 2].map(|power| mode.shape.iter().map(|value| value * s.powi(power)).collect()),
         };
         for column in 0..count {

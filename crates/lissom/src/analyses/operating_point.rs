@@ -3,7 +3,7 @@
 use crate::start::{Lowered, lower};
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::linearized::{LinearModel, steady};
+use lissom_core::linearized::{LinearModel, steady, steady_on_average};
 use lissom_core::settings::Settings;
 use lissom_core::simulation::equilibrium::at_rest;
 use lissom_core::system::{State, System};
@@ -40,6 +40,8 @@ pub enum OperatingPoint {
     Undeformed,
     /// Steady rotation with the velocities of the file.
     Rotation,
+    /// Rotation with the velocities of the file under loads that change with the azimuth, averaged over a turn.
+    AveragedRotation,
     /// The state of the model's own analysis at this time [s].
     Time(f64),
 }
@@ -62,9 +64,13 @@ impl std::str::FromStr for OperatingPoint {
             "static" => Ok(Self::Static),
             "undeformed" => Ok(Self::Undeformed),
             "rotation" => Ok(Self::Rotation),
+            "averaged-rotation" => Ok(Self::AveragedRotation),
             _ => match text.parse::<f64>() {
                 Ok(time) if time.is_finite() => Ok(Self::Time(time)),
-                _ => Err("it must be `static`, `undeformed`, `rotation` or a time in seconds".to_owned()),
+                _ => Err(
+                    "it must be `static`, `undeformed`, `rotation`, `averaged-rotation` or a time in seconds"
+                        .to_owned(),
+                ),
             },
         }
     }
@@ -85,6 +91,7 @@ impl OperatingPoint {
             Self::Static => "static".to_owned(),
             Self::Undeformed => "undeformed".to_owned(),
             Self::Rotation => "rotation".to_owned(),
+            Self::AveragedRotation => "averaged-rotation".to_owned(),
             Self::Time(time) => format!("t = {time} s"),
         }
     }
@@ -102,6 +109,18 @@ impl OperatingPoint {
         document: &Document,
         then: impl FnOnce(LinearizationPoint<'_, '_>) -> Result<T, E>,
     ) -> Result<T, E> {
+        if self == Self::AveragedRotation {
+            return Err(ModesError::ModesAlone.into());
+        }
+        self.linearized_for_modes(document, then)
+    }
+
+    /// The same for modes, which may be those of a mean over the azimuth: `then` receives the model of one azimuth of the mean state.
+    pub(crate) fn linearized_for_modes<T, E: From<ModesError>>(
+        self,
+        document: &Document,
+        then: impl FnOnce(LinearizationPoint<'_, '_>) -> Result<T, E>,
+    ) -> Result<T, E> {
         handed_over(then, |hand| {
             self.find(document, &mut |mut reached| {
                 reached.warnings.extend(kink_warning(reached.model));
@@ -115,6 +134,7 @@ impl OperatingPoint {
         match self {
             Self::Undeformed => undeformed(elements, hand),
             Self::Rotation => in_rotation(elements, hand),
+            Self::AveragedRotation => in_averaged_rotation(elements, hand),
             Self::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
                 in_equilibrium(elements, hand)
             }
@@ -213,6 +233,14 @@ fn in_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
         }
         return Err(ModesError::SteadyHereAlone { change: later, loads: loads.join(", ") });
     }
+    hand(LinearizationPoint { model: &model, channels: &channels, warnings: Vec::new() });
+    Ok(())
+}
+
+fn in_averaged_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
+    let Lowered { system, state, settings, channels, .. } = lower(document)?;
+    let state = steady_on_average(&system, &state, settings.solver)?;
+    let model = linear(&system, &state, &settings)?;
     hand(LinearizationPoint { model: &model, channels: &channels, warnings: Vec::new() });
     Ok(())
 }

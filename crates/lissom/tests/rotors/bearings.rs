@@ -82,6 +82,7 @@ fn a_campbell_diagram_has_the_onset_of_whirl() {
         vary: "parameters.omega=120:132:5".parse().unwrap(),
         count: 4,
         shift: None,
+        averaged: false,
         rays: vec![1],
     };
     let found = campbell(&Model::from_text("model.toml", &text), &request).unwrap_or_else(|e| panic!("{e}"));

@@ -13,6 +13,7 @@ fn request(path: &str, from: f64, to: f64, values: usize, count: usize, rays: &[
         vary: Variation { path: path.to_owned(), from, to, values },
         count,
         shift: None,
+        averaged: false,
         rays: rays.to_vec(),
     }
 }
@@ -288,7 +289,7 @@ fn a_blade_is_stiffened_by_its_rotation() {
 }
 
 /// Three blades on a hub that turns freely, at 20 rad/s; one is struck at its tip after 0.2 s.
-fn turbine() -> String {
+pub(super) fn turbine() -> String {
     let mut text = r#"
 lissom = 1
 [parameters]
@@ -339,7 +340,7 @@ step = 4e-3
 
 /// The rate near `rate` at which a signal of equal steps, weighed with Hann's window, is strongest, and how strong it is there and
 /// a twelfth beside it.
-fn peak(signal: &[f64], step: f64, rate: f64) -> (f64, [f64; 2]) {
+pub(super) fn peak(signal: &[f64], step: f64, rate: f64) -> (f64, [f64; 2]) {
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
     let strength = |rate: f64| {
         let (mut real, mut imaginary) = (0.0, 0.0);

@@ -1,5 +1,6 @@
 //! Rotors: bearings, whirl and critical speeds.
 
+mod averaged;
 mod bearings;
 mod campbell;
 mod multiblade;

@@ -197,6 +197,7 @@ fn a_diagram_has_the_frequencies_at_rest() {
         vary: "parameters.speed=2:12:6".parse().unwrap(),
         count: 8,
         shift: None,
+        averaged: false,
         rays: vec![1],
     };
     let found = campbell(&Model::from_text("model.toml", &rotor(3, 2.0)), &ask)

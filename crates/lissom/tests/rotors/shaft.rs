@@ -10,6 +10,7 @@ fn find(text: &str, (from, to): (f64, f64), values: usize) -> CampbellReport {
         vary: Variation { path: "parameters.speed".to_owned(), from, to, values },
         count: 8,
         shift: None,
+        averaged: false,
         rays: vec![1],
     };
     campbell(&Model::from_text("model.toml", text), &request).unwrap_or_else(|error| panic!("{error}"))

@@ -24,6 +24,7 @@ fn a_strip_that_rotates_has_published_frequencies() {
         vary: Variation { path: "parameters.speed".to_owned(), from: UNIT * 2.0, to: UNIT * 4.0, values: 2 },
         count: 3,
         shift: None,
+        averaged: false,
         rays: Vec::new(),
     };
     let found =

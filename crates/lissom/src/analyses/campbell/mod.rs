@@ -15,7 +15,7 @@ use serde::Deserialize;
 #[cfg(feature = "clap")]
 use crate::analyses::interface::counts;
 use crate::analyses::interface::{Analysis, AnalysisError, Origin};
-use crate::analyses::modes::{ModesError, Reliable, reliable};
+use crate::analyses::modes::{ModesError, Reliable, in_rotation};
 use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model_text::Model;
@@ -46,6 +46,7 @@ Examples:
   lissom campbell rotor.toml --vary parameters.speed=0:200:41
   lissom campbell blade.toml --vary parameters.speed=0:2:21 --count 6 --rays 1,3,6
   lissom campbell rotor.toml --vary parameters.speed=0:200:41 --shift 350   the modes nearest to 350 Hz
+  lissom campbell turbine.toml --vary parameters.speed=0.2:2:10 --averaged    with gravity and tilt, averaged over the azimuth
 
 Exit code: 0 success; 2 wrong model or command line; 3 no steady rotation, no modes, or coefficients that are not constant.")
 )]
@@ -60,6 +61,10 @@ pub struct CampbellRequest {
     #[cfg_attr(feature = "clap", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     #[serde(default)]
     pub shift: Option<f64>,
+    /// Average over the azimuth: for rotors under gravity across the axis, or in tilted or sheared wind.
+    #[cfg_attr(feature = "clap", arg(long))]
+    #[serde(default)]
+    pub averaged: bool,
     /// Multiples of the rotor speed whose crossings with the frequencies are critical speeds.
     #[cfg_attr(feature = "clap", arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..)))]
     pub rays: Vec<u32>,
@@ -297,10 +302,13 @@ impl Search<'_> {
         let failed = |error| CampbellError::Modes { path: path.clone(), value, error: Box::new(error) };
         let count = self.request.count;
         let mut doubts = Vec::new();
+        let mut about = OperatingPoint::rotation_or_static(&document).map_err(failed)?;
+        if self.request.averaged && about == OperatingPoint::Rotation {
+            about = OperatingPoint::AveragedRotation;
+        }
         let find = |reached: LinearizationPoint<'_, '_>| -> Result<Option<Point>, ModesError> {
             let options = ModeOptions { count, shift: self.request.shift };
-            let found = reached.model.modes(&options)?;
-            let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
+            let Reliable { found, at_rest, warnings } = in_rotation(reached.model, about, &options)?;
             let found = found.modes;
             let model = at_rest.as_ref().unwrap_or(reached.model);
             let at_value = warnings
@@ -332,8 +340,7 @@ impl Search<'_> {
             let modes = modes.collect();
             Ok(Some(Point { value, spin: model.spin().norm() / std::f64::consts::TAU, modes }))
         };
-        let about = OperatingPoint::rotation_or_static(&document).map_err(failed)?;
-        let point = about.linearized(&document, find).map_err(|error| match error {
+        let point = about.linearized_for_modes(&document, find).map_err(|error| match error {
             ModesError::Model(report) => CampbellError::Model(report),
             other => failed(other),
         })?;

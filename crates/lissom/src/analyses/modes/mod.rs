@@ -38,6 +38,8 @@ const CONSTANT: f64 = 3e-4;
 const BEYOND_ROUND_OFF: f64 = 30.0;
 /// … unless round-off dominates the comparison.
 const MAX_ROUND_OFF: f64 = 1e-2;
+/// Relative changes of eigenvalues with the azimuth whose effect, of second order, is beyond the digits of a frequency.
+const NEGLIGIBLE: f64 = 0.02;
 
 /// Compute natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
 ///
@@ -63,7 +65,7 @@ pub struct ModeRequest {
     /// Number of modes, the lowest first [default: 20].
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
     pub count: Option<usize>,
-    /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file) or a time of the model's analysis [s].
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file), `averaged-rotation` (over the azimuth) or a time of the model's analysis [s].
     #[cfg_attr(feature = "clap", arg(long, value_name = "STATE|TIME", allow_negative_numbers = true))]
     pub about: Option<OperatingPoint>,
     /// Compute the modes nearest to this frequency [default: the lowest ones].
@@ -128,6 +130,10 @@ pub enum ModesError {
         /// What may cause it, in words.
         loads: String,
     },
+    /// The rotor has no multi-blade coordinates in which a mean can be formed; the reason.
+    NoMean(&'static str),
+    /// An analysis that needs one state was requested for a mean over the azimuth.
+    ModesAlone,
     /// Coefficients change as the model rotates.
     Periodic {
         /// Number of the mode, from 1.
@@ -153,7 +159,7 @@ impl AnalysisError for ModesError {
     fn origin(&self) -> Origin<'_> {
         match self {
             Self::Model(report) => Origin::Model(report),
-            Self::Time { .. } | Self::Shift(_) => Origin::Request,
+            Self::Time { .. } | Self::Shift(_) | Self::ModesAlone => Origin::Request,
             _ => Origin::Computation,
         }
     }
@@ -225,16 +231,16 @@ pub fn modes(model: &Model, request: &ModeRequest) -> Result<ModeReport, ModesEr
     if let Some(frequency) = shift.filter(|frequency| !(frequency.is_finite() && *frequency >= 0.0)) {
         return Err(ModesError::Shift(frequency));
     }
-    let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
+    let mut report = about.linearized_for_modes(&document, |reached| -> Result<ModeReport, ModesError> {
         let options = ModeOptions { count, shift };
-        let found = reached.model.modes(&options)?;
-        let mut report = if about == OperatingPoint::Rotation || reached.model.rolls_on() {
-            let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
+        let rotates = matches!(about, OperatingPoint::Rotation | OperatingPoint::AveragedRotation);
+        let mut report = if rotates || reached.model.rolls_on() {
+            let Reliable { found, at_rest, warnings } = in_rotation(reached.model, about, &options)?;
             let mut report = report_of(at_rest.as_ref().unwrap_or(reached.model), found, count);
             report.warnings.extend(warnings);
             report
         } else {
-            report_of(reached.model, found, count)
+            report_of(reached.model, reached.model.modes(&options)?, count)
         };
         report.warnings.extend(reached.warnings);
         Ok(report)
@@ -258,7 +264,7 @@ pub fn modes(model: &Model, request: &ModeRequest) -> Result<ModeReport, ModesEr
     Ok(report)
 }
 
-/// Modes whose coefficients are constant while the model rotates.
+/// Modes of a rotating model.
 pub(crate) struct Reliable<'a> {
     /// The modes.
     pub(crate) found: Modes,
@@ -275,16 +281,33 @@ struct Inconstant {
     departure: f64,
 }
 
-/// The modes `found` of `model` whose coefficients are constant while it rotates, in the axes of the nodes or in axes
-/// at rest, whichever has more of them.
+/// Modes of a rotating model: of its mean over the azimuth, or those with constant coefficients.
 ///
 /// # Errors
 /// If there are none.
-pub(crate) fn reliable<'a>(
+pub(crate) fn in_rotation<'a>(
     model: &LinearModel<'a>,
-    found: Modes,
+    about: OperatingPoint,
     options: &ModeOptions,
 ) -> Result<Reliable<'a>, ModesError> {
+    if about != OperatingPoint::AveragedRotation {
+        return with_constant_coefficients(model, options);
+    }
+    let averaged = model.averaged()?.map_err(|none| ModesError::NoMean(none.words()))?;
+    let found = averaged.mean.modes(options)?;
+    let change = averaged.variation_of(&found.modes)?;
+    let warnings =
+        if change > NEGLIGIBLE { vec![AnalysisWarning::VariesWithAzimuth { change }] } else { Vec::new() };
+    Ok(Reliable { found, at_rest: Some(averaged.mean), warnings })
+}
+
+/// The modes of `model` whose coefficients are constant while it rotates, in the axes of the nodes or in axes at rest, whichever has more
+/// of them.
+fn with_constant_coefficients<'a>(
+    model: &LinearModel<'a>,
+    options: &ModeOptions,
+) -> Result<Reliable<'a>, ModesError> {
+    let found = model.modes(options)?;
     if model.is_at_rest() {
         return Ok(Reliable { found, at_rest: None, warnings: Vec::new() });
     }
@@ -409,14 +432,26 @@ catalogued! {
         Unsteady { 0 => change } => "rotation-not-steady" {
             cause: "the velocities at the start are not a steady rotation: in the axes of the nodes they change by {change:.1e} of \
                     their squares",
-            remedy: "remove gravity across the axis, loads fixed in space and other motions, which are not steady in rotating axes",
+            remedy: "average over the azimuth (`averaged-rotation`), or remove gravity across the axis, loads fixed in space and other \
+                     motions, which are not steady in rotating axes",
             meaning: "Linearisation about `rotation` requires velocities that are constant in rotating axes.",
         }
         SteadyHereAlone { change => change, loads => loads } => "rotation-steady-at-azimuth" {
             cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, under \
                     loads fixed in space that do not act along the axis as it turns: {loads}",
-            remedy: "remove these loads for this analysis (gravity by `--unset gravity`), let them act along the axis, or fix what tilts it",
+            remedy: "average over the azimuth (`lissom campbell --averaged`, `lissom modes --about averaged-rotation`), remove these loads for \
+                     this analysis (gravity by `--unset gravity`), let them act along the axis, or fix what tilts it",
             meaning: "The velocities are steady at the azimuth of the start, but not at another one: a load is fixed in space.",
+        }
+        NoMean { 0 => reason } => "no-mean-rotation" {
+            cause: "there is no mean over the azimuth, because {reason}",
+            remedy: "use at least three identical blades about one axis, or a simulation in time",
+            meaning: "A mean over the azimuth is formed in multi-blade coordinates, which the rotor does not have.",
+        }
+        ModesAlone {} => "mean-has-modes-only" {
+            cause: "`averaged-rotation` is a mean over the azimuth, of which modes are computed only",
+            remedy: "use `lissom modes` or `lissom campbell`, or linearise about `rotation` or a time of the analysis",
+            meaning: "Responses and matrices refer to one state of the model, and a mean over the azimuth is none.",
         }
         Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
             cause: "mode {number} ({frequency} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
