@@ -295,6 +295,9 @@ fn mistakes_are_shown_in_the_included_file_and_where_it_is_included() {
     ] {
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
+    // A name that the part expects.
+    let text = reported("[parts.leg]\ninclude = \"sub/arm.toml\"\n", &[("sub/arm.toml", ARM)], &[]);
+    assert!(text.contains("pass it by `names = { frame = \"…\" }`"), "{text}");
     // A text that is not TOML.
     let text = reported(parts, &[("sub/arm.toml", "a = = 1\n")], &[]);
     assert!(text.contains("not TOML") && text.contains("[models/sub/arm.toml:1:5]"), "{text}");

@@ -345,10 +345,13 @@ fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec
     known
 }
 
-/// The parts that were made of the text at `span`, from the inside outwards; `also` have the same problem.
-fn origins(sources: &Sources, span: Span, also: &[String]) -> Vec<Included> {
+/// The parts that were made of the text of a problem, from the inside outwards; `also` have the same problem.
+fn origins(sources: &Sources, problem: &Problem, also: &[String]) -> Vec<Included> {
     let mut found = Vec::new();
-    let mut piece = sources.piece(span);
+    let mut piece = sources.piece(problem.span);
+    // Only a part in a file of its own does not have the names around it.
+    let is_name_left_out = problem.label.starts_with("no such")
+        && piece.is_some_and(|piece| piece.name != sources.pieces[0].name);
     while let Some(origin) = piece.and_then(|piece| piece.origin.as_ref()) {
         let others = match also {
             others if !found.is_empty() || others.is_empty() => String::new(),
@@ -358,7 +361,13 @@ fn origins(sources: &Sources, span: Span, also: &[String]) -> Vec<Included> {
             }
         };
         piece = sources.piece(origin.place);
-        let words = format!("this is in the part `{}`{others}", origin.part);
+        let remedy = if is_name_left_out && found.is_empty() {
+            let name = sources.text(problem.span).trim_matches('"');
+            format!("; if it is outside the part, pass it by `names = {{ {name} = \"…\" }}`")
+        } else {
+            String::new()
+        };
+        let words = format!("this is in the part `{}`{others}{remedy}", origin.part);
         found.push(Included { words, span: origin.place, piece: piece.cloned() });
     }
     found
@@ -412,7 +421,7 @@ impl Report {
         let name = sources.pieces.first().map_or("model", |piece| &piece.name).to_owned();
         let shown = once_per_text(problems, sources).into_iter().map(|(problem, also)| Shown {
             piece: sources.piece(problem.span).cloned(),
-            origins: origins(sources, problem.span, &also),
+            origins: origins(sources, &problem, &also),
             problem,
         });
         Self { name, shown: shown.collect() }
