@@ -4,14 +4,17 @@
 //! Legend: global frame, that of the model or of a part; (R, p) frame of the node in it, r point and Q axes of the section in that of
 //! the node, (v, ω) twist of the node in its axes, w(x, t) velocity of the fluid in global axes, S axes of the load in those of the
 //! node: Q for the section, Rᵀ for global axes; f force and m
-//! moment in the axes of the load, y states of the load.
+//! moment in the axes of the load, y states of the load; H, h rotation and origin of a frame of another node, a direction in it.
 //!
 //! ```text
 //! x = p + R r,      c = Sᵀ (v + ω × r),      o = Sᵀ ω,      u = Sᵀ Rᵀ w - c
-//! f, m = functions of x, c, o, u, y, t,      y' = function of the same
+//! d = Rᵀ (x - h),      r = Sᵀ d,      n = Sᵀ Rᵀ H a
+//! f, m = functions of x, c, o, u, r, n, y, t,      y' = function of the same
 //! wrench on the node:  (S f, S m + r × S f)
 //! δx = R (δu + δθ × r),      δ(Sᵀ Rᵀ w) = Sᵀ Rᵀ δw + Qᵀ (Rᵀ w × δθ),      δ(Rᵀ f) = Rᵀ δf + Rᵀ f × δθ
 //! ```
+//!
+//! The other node, for example the hub of a rotor, receives no force: the load is external.
 //!
 //! Functions are evaluated one after the other, and each may use those before it. Derivatives are accumulated forwards.
 
@@ -30,10 +33,10 @@ use crate::signals::{MAX_ARGUMENTS, SignalError, SignalFunction, with_arguments}
 /// Most states of a load.
 pub const MAX_STATES: usize = 6;
 /// Most functions of a load.
-pub const MAX_FUNCTIONS: usize = 48;
+pub const MAX_FUNCTIONS: usize = 80;
 
-/// Derivatives by displacement and rotation of the node, by its twist, and by the states.
-type Row = SVector<f64, { 12 + MAX_STATES }>;
+/// Derivatives by displacement and rotation of the node, by its twist, by displacement and rotation of the other node, and by the states.
+type Row = SVector<f64, { 18 + MAX_STATES }>;
 
 /// An argument of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +51,10 @@ pub enum LocalArgument {
     AngularVelocity(usize),
     /// Component of u [m/s].
     RelativeFlow(usize),
+    /// Component of r, the position relative to the origin of another frame, in the load's axes [m].
+    RelativePosition(usize),
+    /// Component of n, a direction fixed in another node, in the load's axes.
+    Direction(usize),
     /// A state of the load.
     State(usize),
     /// An input, or a sampled signal.
@@ -85,7 +92,10 @@ pub struct LocalFunctions {
 /// Force and moment at a point of a node.
 #[derive(Clone, Debug)]
 pub struct LocalLoad {
-    node: [NodeId; 1],
+    /// The node, and the other one if it is not the same.
+    nodes: Vec<NodeId>,
+    /// Origin and direction in the axes of the last node.
+    other: [Vector3; 2],
     point: Vector3,
     /// Q; none if the axes are global.
     axes: Option<Rotation>,
@@ -110,6 +120,10 @@ struct Local {
     /// R, S.
     rotation: Matrix3,
     axes: Matrix3,
+    /// r, n; H in the axes of the load.
+    relative_position: Vector3,
+    direction: Vector3,
+    other_axes: Matrix3,
 }
 
 /// Values of all functions.
@@ -144,7 +158,8 @@ impl LocalLoad {
         (weight, scale): (f64, Function),
     ) -> Self {
         Self {
-            node: [frame.node],
+            nodes: vec![frame.node],
+            other: [Vector3::zeros(); 2],
             point: frame.offset.position,
             axes: (!is_global).then_some(frame.offset.rotation),
             global,
@@ -156,6 +171,16 @@ impl LocalLoad {
             group,
             switch_states: SwitchStates::default(),
         }
+    }
+
+    /// With positions relative to the origin of `other`, and a direction in the axes of its node.
+    #[must_use]
+    pub fn about(mut self, other: CarriedFrame, direction: Vector3) -> Self {
+        if other.node != self.nodes[0] {
+            self.nodes.push(other.node);
+        }
+        self.other = [other.offset.position, direction];
+        self
     }
 
     /// Force and moment about the point, inertial axes [N, N m].
@@ -189,17 +214,24 @@ impl LocalLoad {
     }
 
     fn local(&self, at: &Kinematics) -> Local {
-        let motion = &at.nodes[self.node[0]];
+        let motion = &at.nodes[self.nodes[0]];
         let frame = motion.frame.relative_to(&self.global);
         let rotation = frame.rotation.matrix();
         let axes = self.axes.map_or_else(|| rotation.transpose(), |own| own.matrix());
         let turning = rotation_part(&motion.twist);
+        let position = frame.position + rotation * self.point;
+        let [origin, direction] = self.other;
+        let other = at.nodes[self.nodes[self.nodes.len() - 1]].frame.relative_to(&self.global);
+        let other_axes = axes.tr_mul(&rotation.tr_mul(&other.rotation.matrix()));
         Local {
-            position: frame.position + rotation * self.point,
+            position,
             velocity: axes.tr_mul(&(translation_part(&motion.twist) + turning.cross(&self.point))),
             angular_velocity: axes.tr_mul(&turning),
             rotation,
             axes,
+            relative_position: axes.tr_mul(&rotation.tr_mul(&(position - other.transform_point(&origin)))),
+            direction: other_axes * direction,
+            other_axes,
         }
     }
 
@@ -219,6 +251,8 @@ impl LocalLoad {
                 let fluid = local.rotation.tr_mul(&self.fluid(&values.functions));
                 local.axes.column(k).dot(&fluid) - local.velocity[k]
             }
+            LocalArgument::RelativePosition(k) => local.relative_position[k],
+            LocalArgument::Direction(k) => local.direction[k],
             LocalArgument::State(k) => at.coordinates[self.states[k]].value,
             LocalArgument::Held(held) => at.held[held.index()],
             LocalArgument::Function(index) => values.functions[index],
@@ -278,6 +312,27 @@ impl LocalLoad {
         [position, velocity, turning]
     }
 
+    /// Rows of relative position and direction.
+    fn relative_rows(&self, local: &Local) -> [[Row; 3]; 2] {
+        let first = if self.nodes.len() == 1 { 0 } else { 12 };
+        let (axes, other) = (local.axes.transpose(), &local.other_axes);
+        let [origin, direction] = self.other.map(|vector| skew(&vector));
+        // δ(Sᵀ b) = Sᵀ b × δθ for the axes of the section, at a constant b in global axes.
+        let turned = |vector: &Vector3| match self.axes {
+            Some(_) => axes * skew(&(local.axes * vector)),
+            None => Matrix3::zeros(),
+        };
+        let arm = axes * skew(&self.point);
+        let own =
+            [[axes, turned(&local.relative_position) - arm], [Matrix3::zeros(), turned(&local.direction)]];
+        let by_other = [[-other, other * origin], [Matrix3::zeros(), -other * direction]];
+        std::array::from_fn(|k| {
+            let mut rows = rows_of(own[k], 0);
+            rows.iter_mut().zip(&rows_of(by_other[k], first)).for_each(|(row, added)| *row += added);
+            rows
+        })
+    }
+
     /// Rows of Sᵀ Rᵀ w - c.
     fn flow_rows(&self, local: &Local, fluid: (&Vector3, &[Row; 3]), velocity: &[Row; 3]) -> [Row; 3] {
         let (w, by) = fluid;
@@ -296,6 +351,7 @@ impl LocalLoad {
     fn rows(&self, at: &Kinematics) -> (Values, [Row; MAX_FUNCTIONS]) {
         let local = self.local(at);
         let [position, velocity, turning] = self.motion_rows(&local);
+        let [relative, direction] = self.relative_rows(&local);
         let mut rows = [Row::zeros(); MAX_FUNCTIONS];
         let mut known = [0.0; MAX_FUNCTIONS];
         let values = self.evaluate(at, |index, arguments, sides| {
@@ -318,7 +374,9 @@ impl LocalLoad {
                         let flow = self.flow_rows(&local, (&self.fluid(&known), &by), &velocity);
                         row += derivative * flow[k];
                     }
-                    LocalArgument::State(k) => row[12 + k] += derivative,
+                    LocalArgument::RelativePosition(k) => row += derivative * relative[k],
+                    LocalArgument::Direction(k) => row += derivative * direction[k],
+                    LocalArgument::State(k) => row[18 + k] += derivative,
                     LocalArgument::Function(earlier) => row += derivative * rows[earlier],
                     LocalArgument::Held(_) | LocalArgument::Constant(_) => {}
                 }
@@ -345,6 +403,11 @@ impl LocalLoad {
         }
     }
 
+    /// Index of the first state among the unknowns.
+    fn first_state(&self) -> usize {
+        6 * self.nodes.len()
+    }
+
     fn factor(&self, at: &Kinematics) -> f64 {
         self.weight * self.scale.value(at.time)
     }
@@ -352,7 +415,7 @@ impl LocalLoad {
 
 impl Element for LocalLoad {
     fn unknowns(&self) -> Unknowns<'_> {
-        Unknowns { nodes: &self.node, coordinates: &self.states, multipliers: &[] }
+        Unknowns { nodes: &self.nodes, coordinates: &self.states, multipliers: &[] }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -360,21 +423,23 @@ impl Element for LocalLoad {
         let factor = self.factor(at);
         self.add_wrench(&values, factor, out);
         for (k, (&state, &rate)) in self.states.iter().zip(&self.functions.rates).enumerate() {
-            out[6 + k] += at.coordinates[state].rate - values.functions[rate];
+            out[self.first_state() + k] += at.coordinates[state].rate - values.functions[rate];
         }
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let (values, rows) = self.rows(at);
         let factor = self.factor(at);
-        let (size, axes) = (out.size(), &values.local.axes);
+        let (size, axes, first) = (out.size(), &values.local.axes, self.first_state());
         let of = |index: Option<usize>, column: usize| index.map_or(0.0, |index| rows[index][column]);
         let mut add = |row: usize, column: usize, value: f64| match column {
             0..6 => out.stiffness[row * size + column] += value,
             6..12 => out.damping[row * size + column - 6] += value,
-            _ => out.stiffness[row * size + column - 6] += value,
+            12..18 => out.stiffness[row * size + column - 6] += value,
+            _ => out.stiffness[row * size + first + column - 18] += value,
         };
-        for column in 0..12 + self.states.len() {
+        let by_nodes = 0..6 + first;
+        for column in by_nodes.chain(18..18 + self.states.len()) {
             let by =
                 [0, 3].map(|first| Vector3::from_fn(|k, _| of(self.functions.wrench[first + k], column)));
             let [force, moment] = self.on_node(&by, axes);
@@ -383,7 +448,7 @@ impl Element for LocalLoad {
                 add(3 + k, column, -factor * moment[k]);
             }
             for (k, &rate) in self.functions.rates.iter().enumerate() {
-                add(6 + k, column, -rows[rate][column]);
+                add(first + k, column, -rows[rate][column]);
             }
         }
         if self.axes.is_none() {
@@ -396,7 +461,7 @@ impl Element for LocalLoad {
             }
         }
         for k in 0..self.states.len() {
-            out.damping[(6 + k) * size + 6 + k] += 1.0;
+            out.damping[(first + k) * size + first + k] += 1.0;
         }
     }
 
@@ -465,7 +530,7 @@ impl Load for LocalLoad {
         let factor = self.factor(at);
         self.add_wrench(&by, factor, out);
         for (k, &rate) in self.functions.rates.iter().enumerate() {
-            out[6 + k] -= by.functions[rate];
+            out[self.first_state() + k] -= by.functions[rate];
         }
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use lissom_mechanics::elements::local_load::{MAX_FUNCTIONS, MAX_STATES};
 use lissom_mechanics::kinematics::Subject;
+use lissom_mechanics::registry::ModelAxis;
 use lissom_mechanics::signals::MAX_ARGUMENTS;
 use lissom_motion::{Motion, Vector3};
 
@@ -43,6 +44,15 @@ const MOTION: [(&str, LocalName); 15] = [
     ("u2", LocalName::RelativeFlow(1)),
     ("u3", LocalName::RelativeFlow(2)),
 ];
+/// Names of the motion relative to another node.
+const RELATIVE: [(&str, LocalName); 6] = [
+    ("r1", LocalName::RelativePosition(0)),
+    ("r2", LocalName::RelativePosition(1)),
+    ("r3", LocalName::RelativePosition(2)),
+    ("n1", LocalName::Direction(0)),
+    ("n2", LocalName::Direction(1)),
+    ("n3", LocalName::Direction(2)),
+];
 /// The fraction along the beam.
 const STATION: &str = "s";
 
@@ -59,6 +69,10 @@ pub enum LocalName {
     AngularVelocity(usize),
     /// Component of the velocity of the flow relative to the point, in the load's axes [m/s].
     RelativeFlow(usize),
+    /// Component of the position relative to another node, in the load's axes [m].
+    RelativePosition(usize),
+    /// Component of a direction fixed in another node, in the load's axes.
+    Direction(usize),
     /// The fraction along the beam.
     Station,
     /// A state of the load.
@@ -111,6 +125,8 @@ pub struct LocalLoadEntry {
     pub at: Option<Vector3>,
     /// The beam along which it acts, if it acts along one.
     pub beam: Option<String>,
+    /// The node to which positions are relative, and a direction fixed in it, at the start in global axes.
+    pub about: Option<(Located<NodeReference>, Vector3)>,
     /// The frame of the model, or of the part in which it is written, for positions, flow and global axes.
     pub frame: Motion,
     /// Whether its axes are those of this frame.
@@ -139,6 +155,12 @@ pub(super) fn keys() -> Vec<Key> {
             "axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too",
         )
         .or_word(AXES[0]),
+        optional("about", Shape::Node, "", "another node, such as a hub: r1, r2, r3 is the position relative to it"),
+        unitless(
+            "axis",
+            Shape::DirectionOr(ModelAxis::X),
+            "direction fixed in the node `about`, at the start: n1, n2, n3 in expressions",
+        ),
         optional(
             "force",
             Shape::SectionDistribution,
@@ -189,6 +211,20 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             let message = format!("{} has neither `force` nor `moment`", reader.what);
             return context.fail(reader.name, message, "add `force = [\"…\", \"…\", \"…\"]`");
         }
+        let about = match reader.node("about") {
+            Some(node) => {
+                Some((context.node(node, &reader.words("about"))?, reader.vector("axis")?.value.normalize()))
+            }
+            None if reader.has("axis") => {
+                let message = format!("{} has `axis`, but lacks `about`", reader.what);
+                return context.fail(
+                    reader.name,
+                    message,
+                    "add `about`, the node in which the axis is fixed",
+                );
+            }
+            None => None,
+        };
         let mut laws = Laws::open(reader, name, beam.is_some())?;
         let flow = laws.vector("flow")?;
         let force = laws.vector("force")?;
@@ -206,6 +242,7 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             node,
             at,
             beam,
+            about,
             frame: if axes == AXES[2] { context.frame(reader.scope)? } else { Motion::identity() },
             is_global: axes != AXES[0],
             functions,
@@ -297,7 +334,7 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
             let mut letters = name.chars();
             let is_word = letters.next().is_some_and(|first| first.is_ascii_alphabetic())
                 && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-            let has_meaning = expression::is_reserved(name) || MOTION.iter().any(|(own, _)| own == name);
+            let has_meaning = expression::is_reserved(name) || self.motion().any(|(own, _)| own == name);
             if !is_word || has_meaning {
                 let message = format!("{} cannot contain the name `{name}`", self.reader.words(key));
                 let help = if is_word {
@@ -311,11 +348,17 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         Some(table.iter().map(|(name, entry)| (name.as_str(), &entry.node)).collect())
     }
 
+    /// Names of the motion of the point.
+    fn motion(&self) -> impl Iterator<Item = &'static (&'static str, LocalName)> {
+        let relative: &[_] = if self.reader.has("about") { &RELATIVE } else { &[] };
+        MOTION.iter().chain(relative)
+    }
+
     /// A parameter with the name of a quantity would replace it by a number.
     fn check_parameters(&self, scope: ScopeId) -> Option<()> {
         let context = self.reader.context;
         let states = self.states.iter().map(|(state, _)| state.name.as_str());
-        let words = MOTION.iter().map(|(name, _)| *name).chain(self.variables.keys().copied()).chain(states);
+        let words = self.motion().map(|(name, _)| *name).chain(self.variables.keys().copied()).chain(states);
         let taken = words.into_iter().find(|word| context.parameters_of(scope).contains_key(*word));
         let Some(taken) = taken else { return Some(()) };
         let message =
@@ -426,7 +469,7 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
 
     fn meaning(&mut self, name: &str, (place, node): (Span, &Node), what: &str) -> Option<LocalName> {
         let context = self.reader.context;
-        if let Some((_, meaning)) = MOTION.iter().find(|(own, _)| *own == name) {
+        if let Some((_, meaning)) = self.motion().find(|(own, _)| *own == name) {
             if self.is_flow && !matches!(meaning, LocalName::Position(_)) {
                 let message = format!("{what} cannot name `{name}`");
                 return context.fail(place, message, "the flow is a function of x, y, z, t and inputs");
@@ -456,7 +499,14 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         if let Some(full) = context.resolve(name, node.scope, &is_there) {
             return Some(LocalName::Outside(Located::new(full, place)));
         }
-        let own = MOTION.iter().map(|(own, _)| *own).chain([STATION, "t"]);
+        if RELATIVE.iter().any(|(own, _)| *own == name) {
+            return context.fail(
+                place,
+                format!("{what} cannot name `{name}`"),
+                "add `about`, the node to which positions are relative",
+            );
+        }
+        let own = self.motion().map(|(own, _)| *own).chain([STATION, "t"]);
         let own = own.chain(self.variables.keys().copied());
         let near = suggest::help(name, own);
         let problem = Problem::error(place, format!("{what} cannot name `{name}`")).label("unknown here");

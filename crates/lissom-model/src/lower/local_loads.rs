@@ -7,7 +7,6 @@ use lissom_mechanics::elements::local_load::{LocalArgument, LocalFunction, Local
 use lissom_mechanics::kinematics::{CarriedFrame, DiscreteValueId};
 use lissom_mechanics::registry::{Constant, Function};
 use lissom_mechanics::signals::{Argument, SignalFunction};
-use lissom_motion::Motion;
 use lissom_system::Builder;
 
 use super::distributed;
@@ -38,6 +37,14 @@ pub(super) fn add(
         (weight, scale)
     };
     let points = points(document, entry, names, builder)?;
+    let about = match &entry.about {
+        Some((node, axis)) => {
+            let other = carried(node, names)?;
+            check_carried(entry, builder, ("about", node), &other, true)?;
+            Some((other, builder.initial_frame(other.node).rotation.apply_inverse(axis)))
+        }
+        None => None,
+    };
     let mut loads = Vec::new();
     for Point { frame, station, weight } in points {
         if weight == 0.0 {
@@ -66,7 +73,7 @@ pub(super) fn add(
             rates: entry.states.iter().map(|(_, rate)| *rate).collect(),
         };
         let start = builder.initial_frame(frame.node).transform_point(&frame.offset.position);
-        let load = LocalLoad::new(
+        let mut load = LocalLoad::new(
             names.local_loads.len(),
             (frame, start),
             (entry.frame, entry.is_global),
@@ -74,6 +81,9 @@ pub(super) fn add(
             states,
             scale(weight),
         );
+        if let Some((other, axis)) = about {
+            load = load.about(other, axis);
+        }
         builder.add(contribution.with(load.clone()));
         loads.push((station, load));
     }
@@ -97,6 +107,8 @@ fn argument(name: &LocalName, held: Option<DiscreteValueId>, station: f64) -> Lo
         LocalName::Velocity(k) => LocalArgument::Velocity(k),
         LocalName::AngularVelocity(k) => LocalArgument::AngularVelocity(k),
         LocalName::RelativeFlow(k) => LocalArgument::RelativeFlow(k),
+        LocalName::RelativePosition(k) => LocalArgument::RelativePosition(k),
+        LocalName::Direction(k) => LocalArgument::Direction(k),
         LocalName::State(k) => LocalArgument::State(k),
         LocalName::Function(index) => LocalArgument::Function(index),
         LocalName::Station => LocalArgument::Constant(station),
@@ -163,21 +175,38 @@ fn points(
         };
         return Ok((0..line.nodes.len()).map(point).collect());
     }
-    let node = names.node(&entry.node)?;
-    let mut offset = Motion::identity();
-    if let NodeReference::Beam { beam, .. } = &entry.node.value
-        && let Some(line) = names.lines.get(beam)
-        && let Some(k) = line.nodes.iter().position(|&own| own == node)
-    {
-        // The node may be another part's: axes and position are those of the section.
-        offset = line.offsets[k];
-    }
+    let mut frame = carried(&entry.node, names)?;
     if let Some(at) = entry.at {
-        offset.position = builder.initial_frame(node).inverse_transform_point(&at);
+        frame.offset.position = builder.initial_frame(frame.node).inverse_transform_point(&at);
     }
     let moments = entry.wrench[3..].iter().any(Option::is_some);
-    builder.model().check_carried("on", (node, offset.position), moments).map_err(|error| {
-        Problem::error(entry.node.span, format!("local load `{}`: {error}", entry.name.value))
-    })?;
-    Ok(vec![Point { frame: CarriedFrame { node, offset }, station: 0.0, weight: 1.0 }])
+    check_carried(entry, builder, ("on", &entry.node), &frame, moments)?;
+    Ok(vec![Point { frame, station: 0.0, weight: 1.0 }])
+}
+
+/// The frame of a node; on a beam that of the section.
+fn carried(reference: &Located<NodeReference>, names: &Names) -> Result<CarriedFrame, Problem> {
+    let mut frame = CarriedFrame::of_node(names.node(reference)?);
+    if let NodeReference::Beam { beam, .. } = &reference.value
+        && let Some(line) = names.lines.get(beam)
+        && let Some(k) = line.nodes.iter().position(|&own| own == frame.node)
+    {
+        // The node may be another part's: axes and position are those of the section.
+        frame.offset = line.offsets[k];
+    }
+    Ok(frame)
+}
+
+fn check_carried(
+    entry: &LocalLoadEntry,
+    builder: &Builder,
+    (key, node): (&'static str, &Located<NodeReference>),
+    frame: &CarriedFrame,
+    turns: bool,
+) -> Result<(), Problem> {
+    let carried = (frame.node, frame.offset.position);
+    builder
+        .model()
+        .check_carried(key, carried, turns)
+        .map_err(|error| Problem::error(node.span, format!("local load `{}`: {error}", entry.name.value)))
 }

@@ -48,15 +48,16 @@ fn function(seed: f64, arguments: Vec<LocalArgument>) -> LocalFunction {
 #[test]
 fn loads_have_the_derivatives_of_their_functions() {
     use LocalArgument::{
-        AngularVelocity, Constant as Number, Displacement, Function, Held, Position, RelativeFlow, State,
-        Velocity,
+        AngularVelocity, Constant as Number, Direction, Displacement, Function, Held, Position, RelativeFlow,
+        RelativePosition, State, Velocity,
     };
-    for (seed, is_global, has_flow) in
-        [(1, false, true), (2, true, true), (3, false, false), (4, true, false)]
-    {
+    // The seventh and eighth are relative to their own node.
+    for seed in 1..=8 {
+        let (is_global, has_flow) = (seed % 2 == 0, seed % 4 < 3);
         let mut random = Random::new(seed);
         let mut builder = Builder::new();
         let node = builder.add_node("body", random.motion(), Freedoms::Full);
+        let other = builder.add_node("hub", random.motion(), Freedoms::Full);
         let held = builder.add_held("wind", 0.4);
         let mut contribution = Contribution::to(builder.model());
         let states =
@@ -69,15 +70,17 @@ fn loads_have_the_derivatives_of_their_functions() {
             function(0.13, vec![Function(3), State(0), Velocity(1), Held(held)]),
             function(0.19, vec![Function(2), RelativeFlow(1), AngularVelocity(2), State(1)]),
             function(0.29, vec![Function(4), Velocity(2), Position(1), AngularVelocity(0)]),
+            function(0.21, vec![RelativePosition(0), RelativePosition(2), Direction(1), State(0)]),
+            function(0.37, vec![Function(7), Direction(0), Direction(2), RelativePosition(1), Held(held)]),
         ];
         let functions = LocalFunctions {
             all,
             flow: if has_flow { [Some(0), None, Some(1)] } else { [None; 3] },
-            wrench: [Some(4), Some(5), Some(3), Some(6), None, Some(2)],
-            rates: vec![6, 5],
+            wrench: [Some(4), Some(5), Some(3), Some(6), Some(8), Some(2)],
+            rates: vec![6, if seed > 4 { 7 } else { 5 }],
         };
         let frame = CarriedFrame { node, offset: random.motion() };
-        let load = LocalLoad::new(
+        let mut load = LocalLoad::new(
             0,
             (frame, random.vector()),
             (random.motion(), is_global),
@@ -85,6 +88,10 @@ fn loads_have_the_derivatives_of_their_functions() {
             states,
             (1.3, Arc::new(Constant(0.8))),
         );
+        if seed > 4 {
+            let about = CarriedFrame { node: if seed > 6 { node } else { other }, offset: random.motion() };
+            load = load.about(about, random.vector());
+        }
         builder.add(contribution.with(load));
         let (system, state) = builder.build(0.0).unwrap();
         let name = format!("load {seed}");

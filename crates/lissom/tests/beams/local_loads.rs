@@ -679,3 +679,126 @@ fn stations_without_a_load_are_refused_with_the_nearest() {
         assert!(message.contains(words), "{message}");
     }
 }
+
+const RELATIVE: &str = r#"
+lissom = 1
+
+[bodies.hub]
+mass = 5
+inertia = [1, 1, 1]
+position = [1, 2, 3]
+rotation = [0.3, -0.2, 0.5]
+
+[bodies.blade]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [1.5, 2.4, 3.7]
+rotation = [-0.4, 0.1, 0.2]
+
+[joints.carriage]
+kind = "prescribed_motion"
+base = "ground"
+tip = "hub"
+x = "0.2*t"
+y = "0.5*t^2"
+z = "-0.3*t"
+
+[joints.shaft]
+kind = "revolute"
+base = "hub"
+tip = "blade"
+at = [1, 2, 3]
+axis = [2, 1, 2]
+
+[joints.drive]
+kind = "prescribed_rotation"
+joint = "shaft"
+rotation = "0.7*t"
+
+[local_loads.place]
+on = "blade"
+about = "hub"
+axis = [2, 1, 2]
+force = ["r1", "r2", "r3"]
+
+[local_loads.motion]
+on = "blade"
+about = "hub"
+axis = [2, 1, 2]
+force = ["n2*r3 - n3*r2", "n3*r1 - n1*r3", "n1*r2 - n2*r1"]
+
+[outputs.place]
+kind = "local_load"
+of = "place"
+
+[outputs.motion]
+kind = "local_load"
+of = "motion"
+
+[outputs.hub]
+kind = "position"
+of = "hub"
+
+[outputs.blade]
+kind = "position"
+of = "blade"
+
+[outputs.of_hub]
+kind = "velocity"
+of = "hub"
+
+[outputs.of_blade]
+kind = "velocity"
+of = "blade"
+
+[analysis]
+kind = "dynamics"
+end = 2
+step = 0.01
+"#;
+
+/// In whichever axes the load is written, r is the distance of both origins, and n × r times the rate of a shaft along n the difference
+/// of their velocities.
+#[test]
+fn a_load_has_the_position_relative_to_another_node() {
+    for axes in ["\"section\"", "\"global\"", "\"part\""] {
+        let record = run(RELATIVE, &[("local_loads.place.axes", axes), ("local_loads.motion.axes", axes)]);
+        for k in 0..3 {
+            let [force, place, rate] = [["f1", "f2", "f3"][k], ["x", "y", "z"][k], ["v1", "v2", "v3"][k]];
+            let between = last(&record, "blade", place) - last(&record, "hub", place);
+            let moved = last(&record, "of_blade", rate) - last(&record, "of_hub", rate);
+            let [found, turned] = ["place", "motion"].map(|output| last(&record, output, force));
+            assert!((found - between).abs() < 1e-9, "{axes} {place}: {found} {between}");
+            assert!(between.abs() > 0.1, "{axes} {place}: {between}");
+            assert!((0.7 * turned - moved).abs() < 1e-6, "{axes} {rate}: {turned} {moved}");
+        }
+    }
+}
+
+/// The axis of a load in a part is given in the axes of the part, whatever the axes of the load are.
+#[test]
+fn the_axis_of_a_load_turns_with_its_part() {
+    let load = r#"
+[parts.turned]
+rotation = [0, 0, "pi/2"]
+
+[parts.turned.local_loads.axis]
+on = "ball"
+about = "ball"
+axis = [2, 0, 0]
+axes = "section"
+force = ["n1", "n2", "n3"]
+
+[outputs.axis]
+kind = "local_load"
+of = "turned.axis"
+"#;
+    let text = format!("{FALL}{load}");
+    for axes in ["section", "global", "part"] {
+        let record = run(&text.replace("\"section\"", &format!("\"{axes}\"")), &[]);
+        for (component, expected) in [("f1", 0.0), ("f2", 1.0), ("f3", 0.0)] {
+            let found = record.column("axis", component).unwrap()[0];
+            assert!((found - expected).abs() < 1e-12, "{axes} {component}: {found}");
+        }
+    }
+}

@@ -156,6 +156,8 @@ class LocalLoad(Entry):
         on: a beam, along which it is distributed, or a node; a node.
         at: where it acts on a node, at the start; default the node [m]; a position, or nothing.
         axes: axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too; default `"section"`; `"section"`, `"global"`, `"part"`, or nothing.
+        about: another node, such as a hub: r1, r2, r3 is the position relative to it; a node, or nothing.
+        axis: direction fixed in the node `about`, at the start: n1, n2, n3 in expressions; a direction, or nothing.
         force: per length of a beam, or on a node: three numbers or expressions [N/m, N]; three expressions of `s` and `t`, or nothing.
         moment: the same for the moment [N, N m]; three expressions of `s` and `t`, or nothing.
         flow: velocity of the surrounding fluid in global axes, or with `axes = "part"` in those of the part: three numbers or expressions of x, y, z, t and inputs [m/s]; three expressions of `s` and `t`, or nothing.
@@ -169,6 +171,8 @@ class LocalLoad(Entry):
     on: str
     at: Place | None = None
     axes: Literal["section", "global", "part"] | None = None
+    about: str | None = None
+    axis: Vector | str | None = None
     force: Vector | None = None
     moment: Vector | None = None
     flow: Vector | None = None

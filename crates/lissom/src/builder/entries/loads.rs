@@ -54,6 +54,8 @@ entries! {
         * on: Node = "on", "a beam, along which it is distributed, or a node";
         at: [f64; 3] = "at", "Where it acts on a node, at the start; default the node \\[m\\].";
         axes: words::Axes = "axes", "Axes of `force`, `moment`, velocities and relative flow: those of the section or body, global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too; default `\"section\"`.";
+        about: Node = "about", "Another node, such as a hub: r1, r2, r3 is the position relative to it.";
+        axis: [f64; 3] = "axis", "Direction fixed in the node `about`, at the start: n1, n2, n3 in expressions.";
         force: [Expression; 3] = "force", "Per length of a beam, or on a node: three numbers or expressions \\[N/m, N\\].";
         moment: [Expression; 3] = "moment", "The same for the moment \\[N, N m\\].";
         flow: [Expression; 3] = "flow", "Velocity of the surrounding fluid in global axes, or with `axes = \"part\"` in those of the part: three numbers or expressions of x, y, z, t and inputs \\[m/s\\].";
