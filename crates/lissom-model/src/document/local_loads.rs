@@ -13,6 +13,7 @@ use lissom_motion::{Motion, Vector3};
 use super::NodeReference;
 use super::entries::each;
 use crate::expression::{self, Formula};
+use crate::files::wind_box::WindBox;
 use crate::format::keys::{Key, Shape, choice, optional, required, unitless};
 use crate::format::part_tables::placed_in;
 use crate::format::suggest;
@@ -90,6 +91,8 @@ pub enum LocalLaw {
     Formula(Formula),
     /// A table over one argument, or several of them over two.
     Table(TableFamily),
+    /// A component of wind over y, z and time.
+    Wind(Arc<WindBox>, usize),
 }
 
 /// A law and the meaning of its arguments.
@@ -423,7 +426,9 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         let reader = Reader::open(context, node, (what.to_owned(), node.span), local_table_keys())?;
         let of = reader.node("of")?;
         let expressions = match &of.value {
-            Value::List(list) if list.len() == 2 => list.as_slice(),
+            Value::List(list) if list.len() == 2 || (list.len() == 3 && reader.has("wind")) => {
+                list.as_slice()
+            }
             Value::List(_) => {
                 let message = format!("{} must be one or two expressions", reader.words("of"));
                 return context.fail(
@@ -434,12 +439,18 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
             }
             _ => slice::from_ref(of),
         };
-        let table = context.local_table(&reader, node, expressions.len())?;
+        let (law, words) = if reader.has("wind") {
+            let (wind, component) = context.wind_of(&reader, node, expressions.len())?;
+            let words = format!("{what}, whose wind is known for {}", wind.extent());
+            (LocalLaw::Wind(wind, component), words)
+        } else {
+            (LocalLaw::Table(context.local_table(&reader, node, expressions.len())?), what.to_owned())
+        };
         let mut arguments = Vec::new();
         for own in expressions {
             arguments.push(LocalName::Function(self.formula(own, &format!("`of` of {what}"))?));
         }
-        Some(self.push(LocalLaw::Table(table), arguments, what))
+        Some(self.push(law, arguments, &words))
     }
 
     fn push(&mut self, law: LocalLaw, arguments: Vec<LocalName>, what: &str) -> usize {

@@ -9,6 +9,7 @@ use crate::files;
 use crate::files::matrix_market::full_matrix;
 use crate::files::npz;
 use crate::files::ready_made;
+use crate::files::wind_box::WindBox;
 use crate::surface::Surface;
 
 /// Why there is no text.
@@ -27,6 +28,9 @@ type Found = Result<Arc<str>, Missing>;
 /// A surface, or why there is none; no surface where no files are looked for, because it is drawn only.
 type FoundSurface = Result<Option<Arc<Surface>>, Missing>;
 
+/// Wind, or why there is none.
+type FoundWind = Result<Arc<WindBox>, Missing>;
+
 /// Texts by their paths relative to the folder of the model.
 #[derive(Debug, Default)]
 pub struct Library {
@@ -34,6 +38,7 @@ pub struct Library {
     folder: Option<PathBuf>,
     found: Mutex<BTreeMap<String, Found>>,
     surfaces: Mutex<BTreeMap<String, FoundSurface>>,
+    winds: Mutex<BTreeMap<String, FoundWind>>,
 }
 
 impl Library {
@@ -131,6 +136,33 @@ impl Library {
         surface
     }
 
+    /// The wind in the file at `path`, which `joined` has made. Its bytes are kept as the text `path#` in hexadecimal digits, so that
+    /// who has all texts needs no file.
+    pub(crate) fn wind(&self, path: &str) -> FoundWind {
+        let mut winds = self.winds.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = winds.get(path) {
+            return known.clone();
+        }
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        let help = Some("specify a binary full-field file of TurbSim, `.bts`".to_owned());
+        let missing = |words: String| Missing { message: format!("`{path}` {words}"), help: help.clone() };
+        let name = format!("{path}#");
+        let bytes = match (found.get(&name), &self.folder) {
+            (Some(Ok(text)), _) => of_digits(text).ok_or_else(|| missing("is damaged".to_owned())),
+            (_, Some(folder)) => files::read_input(&folder.join(path))
+                .map_err(|error| missing(format!("cannot be read: {error}"))),
+            (_, None) => Err(missing("was not among the files of the model".to_owned())),
+        };
+        let wind = bytes.and_then(|bytes| {
+            let text = digits(&bytes);
+            let wind = WindBox::of_file(bytes).map_err(|error| missing(format!("has no wind: {error}")))?;
+            found.insert(name, Ok(text.into()));
+            Ok(Arc::new(wind))
+        });
+        winds.insert(path.to_owned(), wind.clone());
+        wind
+    }
+
     /// All texts that were read so far, by their paths.
     pub fn texts(&self) -> BTreeMap<String, String> {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -140,6 +172,7 @@ impl Library {
 
     /// The files requested so far, whether they exist or not.
     pub fn files(&self) -> Vec<PathBuf> {
+        let winds = self.winds.lock().unwrap_or_else(PoisonError::into_inner);
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = self.folder.clone().unwrap_or_default();
         let surfaces = self.surfaces.lock().unwrap_or_else(PoisonError::into_inner);
@@ -147,12 +180,26 @@ impl Library {
         let file = |path: &String| {
             path.split_once(".npz#").map_or_else(|| path.clone(), |(own, _)| format!("{own}.npz"))
         };
-        let is_file = |path: &&String| !path.starts_with(ready_made::PREFIX);
+        let drawn = surfaces.keys().chain(winds.keys());
+        let is_file = |path: &&String| !path.starts_with(ready_made::PREFIX) && !path.ends_with('#');
         let mut files: Vec<PathBuf> =
-            found.keys().chain(surfaces.keys()).filter(is_file).map(|path| folder.join(file(path))).collect();
+            found.keys().chain(drawn).filter(is_file).map(|path| folder.join(file(path))).collect();
         files.dedup();
         files
     }
+}
+
+/// Bytes as hexadecimal digits.
+fn digits(bytes: &[u8]) -> String {
+    let digit = |half: u8| char::from_digit(u32::from(half), 16).unwrap_or_default();
+    bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
+}
+
+/// Bytes of hexadecimal digits.
+fn of_digits(text: &str) -> Option<Vec<u8>> {
+    let (pairs, rest) = text.as_bytes().as_chunks::<2>();
+    let pair = |pair: &[u8; 2]| u8::from_str_radix(str::from_utf8(pair).ok()?, 16).ok();
+    rest.is_empty().then(|| pairs.iter().map(pair).collect())?
 }
 
 /// The path that `path`, written in the file `from`, leads to, without detours.

@@ -11,7 +11,7 @@ use lissom_system::Builder;
 
 use super::distributed;
 use super::names::Names;
-use super::over_argument::OverArgument;
+use super::over_argument::{OverArgument, OverWind};
 use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
@@ -97,6 +97,7 @@ fn law(expression: &LocalExpression) -> Arc<dyn SignalFunction> {
             Arc::new(OverTime::new(formula.clone(), &unknown))
         }
         LocalLaw::Table(table) => Arc::new(OverArgument::new(table.clone(), None)),
+        LocalLaw::Wind(wind, component) => Arc::new(OverWind(Arc::clone(wind), *component)),
     }
 }
 

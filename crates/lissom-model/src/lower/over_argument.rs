@@ -1,10 +1,13 @@
-//! A table over an argument as a function of signals and of local loads.
+//! A table over an argument as a function of signals and of local loads, and wind over three.
+
+use std::sync::Arc;
 
 use lissom_mechanics::law::{Enclosure, Interval};
 use lissom_mechanics::registry::ForceFunction;
 use lissom_mechanics::signals::SignalFunction;
 
 use crate::expression::Line;
+use crate::files::wind_box::WindBox;
 use crate::functions::table_family::TableFamily;
 
 /// A table over its argument, or tables over its first for values of its second.
@@ -50,6 +53,21 @@ impl SignalFunction for OverArgument {
 
     fn breakpoints(&self) -> &[f64] {
         &self.breakpoints
+    }
+}
+
+/// A component of wind over y, z and time.
+#[derive(Debug)]
+pub(super) struct OverWind(pub(super) Arc<WindBox>, pub(super) usize);
+
+impl SignalFunction for OverWind {
+    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
+        self.0.evaluate(self.1, [arguments[0], arguments[1], arguments[2]])[0]
+    }
+
+    fn gradient(&self, _: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
+        let [_, slopes @ ..] = self.0.evaluate(self.1, [arguments[0], arguments[1], arguments[2]]);
+        out.copy_from_slice(&slopes);
     }
 }
 

@@ -1,6 +1,10 @@
-//! Tables over one or two expressions of a local load: rows, columns of a data file, or polars of aerofoils.
+//! Tables over expressions of a local load: rows, columns of a data file, polars of aerofoils, or turbulent wind.
 
+use std::sync::Arc;
+
+use crate::files::library::{Missing, joined};
 use crate::files::polar_file::{Polar, polars};
+use crate::files::wind_box::WindBox;
 use crate::format::keys::table_keys;
 use crate::format::keys::{Key, Shape, choice, required, unitless};
 use crate::functions::table::{Extrapolation, Table};
@@ -8,10 +12,13 @@ use crate::functions::table_family::TableFamily;
 use crate::parts::context::Context;
 use crate::reading::reader::Reader;
 use crate::reading::table_values::{interpolation_of, table_key_in};
+use crate::text::report::Problem;
 use crate::text::{Node, Value};
 
 /// Coefficients in files of polars.
 const COEFFICIENTS: [&str; 3] = ["cl", "cd", "cm"];
+/// Components of wind: along it, to its left and upwards.
+const COMPONENTS: [&str; 3] = ["u", "v", "w"];
 
 /// Keys of a table of a local load.
 pub(crate) fn local_table_keys() -> Vec<Key> {
@@ -21,6 +28,12 @@ pub(crate) fn local_table_keys() -> Vec<Key> {
         unitless("tables", Shape::Table, "tables for ascending values `at` of the second expression"),
         unitless("polar", Shape::Text, "a file of AeroDyn or HAWC2 with polars of an aerofoil"),
         unitless("coefficient", choice(&COEFFICIENTS), "coefficient of the polars: lift, drag or moment"),
+        unitless(
+            "wind",
+            Shape::Text,
+            "a binary file of TurbSim with wind over y, z and time: three expressions in `of`",
+        ),
+        unitless("component", choice(&COMPONENTS), "component of the wind: along it, to its left, upwards"),
         unitless("set", Shape::Count(1, 9999), "set of polars in a file of HAWC2").or_count(1),
     ]);
     keys
@@ -59,6 +72,33 @@ impl Context<'_> {
             }
             (None, _) => Some(self.table_of(reader, node, Extrapolation::Constant)?.into()),
         }
+    }
+
+    /// The wind of a file with the index of a component, if there is one.
+    pub(crate) fn wind_of(
+        &self,
+        reader: &Reader<'_, '_>,
+        node: &Node,
+        count: usize,
+    ) -> Option<(Arc<WindBox>, usize)> {
+        let (what, file, name) = (&reader.what, reader.node("wind")?, reader.text("wind")?.value);
+        if ["tables", "polar"].iter().any(|word| reader.has(word)) || table_key_in(reader).is_some() {
+            return self.fail(node.span, format!("{what} has both `wind` and a table"), "remove one of them");
+        }
+        if count != 3 {
+            let message = format!("{what} has `wind` over {count} expressions");
+            return self.fail(node.span, message, "write `of = [\"y\", \"z\", \"t\"]`");
+        }
+        let Some(component) = reader.choice("component") else {
+            let help = "add `component = \"u\"`, \"v\" or \"w\"";
+            return self.fail(file.span, format!("{what} lacks `component`"), help);
+        };
+        let missing = |error: Missing| {
+            let problem = Problem::error(file.span, format!("{what}: {error}"));
+            self.report(problem.label("named here").maybe_help(error.help));
+        };
+        let wind = self.library.wind(&joined(self.sources.file(file.span), name)).map_err(missing).ok()?;
+        Some((wind, COMPONENTS.iter().position(|own| *own == component.value)?))
     }
 
     fn family(&self, node: &Node, what: &str) -> Option<TableFamily> {

@@ -5,6 +5,7 @@ use lissom::{Model, SessionError};
 
 use crate::support::refused::refused;
 use crate::support::runs::{last, run_without_warnings as run, session};
+use crate::support::starts::record;
 
 const FALL: &str = r#"
 lissom = 1
@@ -801,4 +802,80 @@ of = "turned.axis"
             assert!((found - expected).abs() < 1e-12, "{axes} {component}: {found}");
         }
     }
+}
+
+/// A box with the velocity w = 3 + 0.02 z + 0.5 t + 0.1 y upwards from the height -40 m on.
+fn wind_box(format: i16) -> Vec<u8> {
+    let mut bytes = format.to_le_bytes().to_vec();
+    bytes.extend([2_i32, 3, 0, 6].iter().flat_map(|count| count.to_le_bytes()));
+    bytes.extend([50.0_f32, 5.0, 1.0, 0.0, 0.0, -40.0].iter().flat_map(|real| real.to_le_bytes()));
+    bytes.extend([1.0_f32, 0.0, 1.0, 0.0, 1000.0, -500.0].iter().flat_map(|real| real.to_le_bytes()));
+    bytes.extend(0_i32.to_le_bytes());
+    for (instant, z, y) in (0..6).flat_map(|t| (0..6).map(move |place| (t, place / 3, place % 3))) {
+        let w = 3000 + 20 * (50 * z - 40) + 500 * instant + 500 * (y - 1);
+        bytes.extend([0, 0, w - 500].iter().flat_map(|own| i16::try_from(*own).unwrap().to_le_bytes()));
+    }
+    bytes
+}
+
+/// The ball of the first test in wind of a file, and in the same wind as an expression; beyond the file the run fails.
+#[test]
+fn wind_of_a_file_is_that_of_an_expression() {
+    let folder = std::env::temp_dir().join(format!("lissom-wind-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("wind.bts"), wind_box(7)).unwrap();
+    let ball = FALL
+        .replace("inertia = [1, 1, 1]", "inertia = [1, 1, 1]\nposition = [0, 1, 0]\nvelocity = [0, 0.3, 0]")
+        .replace(
+            "variables = { speed = \"sqrt(u1^2 + u2^2 + u3^2)\" }",
+            "variables.speed = \"sqrt(u1^2 + u2^2 + u3^2)\"",
+        );
+    let wind = "variables.w = { of = [\"y\", \"z\", \"t\"], wind = \"wind.bts\", component = \"w\" }\nforce";
+    let of_file = ball.replace("\"wind\"]", "\"w\"]").replace("force", wind);
+    let of_expression = ball.replace("\"wind\"]", "\"3 + 0.02*z + 0.5*t + 0.1*y\"]");
+    let run = |text: &str| {
+        let path = folder.join("model.toml");
+        std::fs::write(&path, text).unwrap();
+        let mut session = Model::read(&path).unwrap().session()?;
+        let record = session.run().map_err(|failure| failure.to_string()).map(|done| done.into_parts().0);
+        Ok::<_, SessionError>(record)
+    };
+    let [found, expected] = [&of_file, &of_expression].map(|text| run(text).unwrap().unwrap());
+    for component in ["v2", "v3"] {
+        let [found, expected] = [&found, &expected].map(|record| last(record, "ball", component));
+        assert!((found - expected).abs() < 1e-6, "{component}: {found} {expected}");
+        assert!((found - 0.3).abs() > 0.01);
+    }
+    for (text, words) in [
+        (of_file.replace("end = 3", "end = 6"), "z = -40 to 10 m and t = 0 to 5 s"),
+        (of_file.replace("[0, 1, 0]", "[0, 6, 0]"), "y = -5 to 5 m"),
+    ] {
+        let problem = match run(&text) {
+            Ok(result) => result.expect_err("a failure"),
+            Err(error) => error.to_string(),
+        };
+        assert!(
+            problem.contains("variable `w` of local load `drag`") && problem.contains(words),
+            "{problem}"
+        );
+    }
+    for (text, words) in [
+        (of_file.replace("wind.bts", "calm.bts"), "cannot be read"),
+        (of_file.replace(", component = \"w\"", ""), "lacks `component`"),
+        (of_file.replace("[\"y\", \"z\", \"t\"]", "[\"z\", \"t\"]"), "has `wind` over 2 expressions"),
+        (of_file.replace("\"z\", \"t\"]", "\"z\", \"t\"], polar = \"a\""), "has both `wind` and a table"),
+    ] {
+        let Err(SessionError::Model(report)) = run(&text) else { panic!("{words}: accepted") };
+        let problem = report.render(false);
+        let problem = problem.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(problem.contains(words), "{words}: {problem}");
+    }
+    // A model that is kept with its texts, as in a checkpoint, needs no file.
+    std::fs::write(folder.join("model.toml"), &of_file).unwrap();
+    let model = Model::read(&folder.join("model.toml")).unwrap();
+    model.session().unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let kept = Model::from_text("model.toml", &of_file).with_included(model.included());
+    let again = record(&mut kept.session().unwrap());
+    assert!((last(&again, "ball", "v3") - last(&found, "ball", "v3")).abs() < 1e-12);
 }
