@@ -25,13 +25,14 @@ macro_rules! template {
 }
 
 /// All of them, the usual one first.
-const TEMPLATES: [Template; 6] = [
+const TEMPLATES: [Template; 7] = [
     template!("slider-crank", "a driven crank, a flexible rod and a slider"),
     template!("vehicle", "a car with four sprung wheels that is driven and steered"),
     template!("robot", "an arm of three joints with motors and their control"),
     template!("crane", "a flexible tower crane with trolley, rope and winch"),
     template!("rotor", "a flexible shaft with an unbalanced disc, run up in bearings"),
     template!("wing", "a flexible wing in a gust, with the aerodynamics of its sections"),
+    template!("turbine", "a wind turbine with flexible blades, tower, generator and wake"),
 ];
 
 /// Schema of model files beside the model, which its first line names for editors.

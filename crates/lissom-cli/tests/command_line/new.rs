@@ -103,6 +103,16 @@ fn templates_run_as_they_are() {
     let wing = template(&folder, "wing", "0.9", &["air.f3", "tip.u3", "at_75_percent.alpha"]);
     near(wing[0], 0.5 * 1.225 * 22.0 * 22.0 * 0.4 * 6.0 * 2.0 * std::f64::consts::PI * 0.05, 0.1);
     assert!(wing[1] > 0.1 && wing[2] > 0.03 && wing[2] < 0.06, "{wing:?}");
+    // Power and thrust of an actuator disc with an induction of 0.27, less losses; all of the wind's power goes to the generator.
+    let columns =
+        ["blade1", "blade2", "blade3"].map(|blade| [format!("{blade}.air.f1"), format!("{blade}.air.power")]);
+    let columns: Vec<&str> =
+        columns.iter().flatten().map(String::as_str).chain(["generator.power"]).collect();
+    let turbine = template(&folder, "turbine", "6", &columns);
+    let disc = 0.5 * 1.225 * std::f64::consts::PI * 21.0 * 21.0 * 81.0;
+    near(turbine[0] + turbine[2] + turbine[4], disc * 4.0 * 0.27 * 0.73, 0.02);
+    near(turbine[1] + turbine[3] + turbine[5], disc * 9.0 * 0.48, 0.05);
+    near(-turbine[6], disc * 9.0 * 0.48, 0.05);
     let refused = lissom(&["new", "x", "--template", "submarine"], folder.path());
     assert!(refused.code == 2 && refused.errors.contains("slider-crank"), "{}", refused.errors);
 }
