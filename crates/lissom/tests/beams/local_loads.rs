@@ -879,3 +879,61 @@ fn wind_of_a_file_is_that_of_an_expression() {
     let again = record(&mut kept.session().unwrap());
     assert!((last(&again, "ball", "v3") - last(&found, "ball", "v3")).abs() < 1e-12);
 }
+
+const STALL: &str = r#"
+lissom = 1
+
+[parameters]
+speed = 20
+chord = 0.5
+
+[bodies.section]
+mass = 1
+inertia = [1, 1, 1]
+
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "section"
+
+[local_loads.air]
+on = "section"
+flow = ["-speed*cos(angle)", 0, "speed*sin(angle)"]
+force = [0, 0, "cl"]
+
+[local_loads.air.variables]
+angle = "0.15 + 0.15*smoothstep((t - 0.1)/1e-6)"
+alpha = "atan2(u3, -u1)"
+steady = { of = "alpha", table = [[-0.1, -0.6], [0.2, 1.2], [0.4, 0.9]] }
+attached = "2*pi*sin(alpha)"
+cl = "attached - gap"
+
+[local_loads.air.states]
+gap = { derivative = "(attached - steady - gap)*speed/(4*chord)" }
+
+[outputs.air]
+kind = "local_load"
+of = "air"
+
+[initial]
+equilibrium = true
+
+[analysis]
+kind = "dynamics"
+end = 0.2
+relative_tolerance = 1e-8
+"#;
+
+/// The recipe of the manual for dynamic stall: after a jump of the angle of attack the lift follows the attached flow, and approaches the
+/// polar with the time constant 4 c/U.
+#[test]
+fn lift_approaches_the_polar_after_a_jump_of_the_angle() {
+    let gap = |alpha: f64, steady: f64| 2.0 * std::f64::consts::PI * alpha.sin() - steady;
+    let record = run(STALL, &[]);
+    let (before, after) = (gap(0.15, 0.9), gap(0.3, 1.05));
+    assert!((record.column("air", "f3").unwrap()[0] - 0.9).abs() < 1e-9);
+    let expected = 2.0 * std::f64::consts::PI * 0.3_f64.sin() - (after + (before - after) * (-1.0_f64).exp());
+    let found = last(&record, "air", "f3");
+    assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+    assert!((found - 1.05).abs() > 0.1);
+}
