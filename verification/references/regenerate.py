@@ -22,7 +22,7 @@ HERE = Path(__file__).parent
 CASES = HERE.parent
 # Programs that take more than some ten seconds each.
 LONG = {"bend_45", "helix", "princeton", "lee", "arch", "right_angle", "misaligned", "governor", "andrews"}
-MODULES = ["cantilevers", "planar", "buckling", "four_bar", "rigid", "closed_loops", "closed_forms"]
+MODULES = ["cantilevers", "planar", "buckling", "four_bar", "rigid", "closed_loops", "closed_forms", "rotor"]
 
 
 class Rows:
