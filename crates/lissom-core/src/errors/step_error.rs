@@ -294,6 +294,25 @@ diagnostics! {
             remedy: "make the beam longer, stop it with a spring of kind `axial_stop`, or end the run before with an event",
             meaning: "A slider has left its beam.",
         }
+        /// A rope has left a sheave.
+        OffSheave {
+            /// Time [s].
+            time: f64,
+            /// Parts of the rope.
+            parts: String,
+            /// Number of the point along the rope, from 1 on.
+            point: usize,
+            /// How it has left the sheave.
+            how: String,
+        } => "rope-off-sheave" {
+            time: *time,
+            subject: Subject::new("part", parts),
+            cause: ("step to t = {time} s: the rope on `{parts}` {how}, at its point {point}"),
+            remedy: "keep the neighbours of the sheave on its side and in its plane, specify the `joint` of a drum, \
+                or replace the sheave by a point",
+            meaning: "A rope under tension no longer lies on one of its sheaves as the model describes, or its direction has turned by \
+                so much that turns on its drum cannot be counted. Its length would be wrong from there on.",
+        }
         /// The kinetic energy of a superelement is negative in some motion.
         NegativeKineticEnergy {
             /// End of the step [s].

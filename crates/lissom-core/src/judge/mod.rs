@@ -72,6 +72,7 @@ impl Judge<'_> {
     ) -> Result<(EnergyBalance, f64), StepError> {
         let violation = self.constraints(end)?;
         self.sliders(end)?;
+        ropes(self.system, &end.kinematics)?;
         if self.is_motion {
             positive_mass(self.system, &end.kinematics)?;
         }
@@ -232,6 +233,18 @@ fn positive_mass(system: &System, at: &Kinematics) -> Result<(), StepError> {
 fn overlaps(system: &System, at: &Kinematics) -> Result<(), StepError> {
     let beam = system.beams.overlapping(at);
     beam.map_or(Ok(()), |beam| Err(StepError::SectionsOverlap { time: at.time, beam: beam.to_owned() }))
+}
+
+/// Fails if a rope under tension no longer lies on one of its sheaves.
+fn ropes(system: &System, at: &Kinematics) -> Result<(), StepError> {
+    for rope in system.elements_with(|own| own.reeved) {
+        let Some((index, how)) = rope.off_sheave(at) else { continue };
+        let name = |node| system.layout().name_of_node(node).to_owned();
+        let parts = rope.unknowns().nodes.iter().copied().filter(|&node| node != GROUND).map(name);
+        let parts = parts.collect::<Vec<_>>().join("` and `");
+        return Err(StepError::OffSheave { time: at.time, parts, point: index + 1, how });
+    }
+    Ok(())
 }
 
 /// Fails if two nodes of an element are rotated relative to each other by nearly half a turn or more.

@@ -16,19 +16,34 @@ pub type Carried = (NodeId, Vector3);
 pub struct Attached {
     /// Nodes, each with a point in its body frame [m]; a node may occur several times.
     pub nodes: Vec<Carried>,
-    /// Algebraic coordinates, all different.
+    /// Algebraic coordinates, all different: first those of joints of drums among the sheaves.
     pub coordinates: Vec<CoordinateId>,
+    /// Sheaves of a rope, each with the position of its node among the nodes, ascending.
+    pub sheaves: Vec<(usize, Sheave)>,
+}
+
+/// A sheave over which a rope passes, or a drum at its end, on which it is wound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sheave {
+    /// Radius [m].
+    pub radius: f64,
+    /// Direction of the axis at the start, global axes.
+    pub axis: Vector3,
+    /// Whether the rope, from its first point to its last, turns about the axis in the positive sense; none if its neighbours determine it.
+    pub is_positive: Option<bool>,
+    /// Sign with which the coordinate of its joint turns it about the axis; none without a joint.
+    pub turns: Option<f64>,
 }
 
 impl Attached {
     /// An attachment to nodes, each at a point in its body frame [m].
     pub fn to_nodes(nodes: impl IntoIterator<Item = Carried>) -> Self {
-        Self { nodes: nodes.into_iter().collect(), coordinates: Vec::new() }
+        Self { nodes: nodes.into_iter().collect(), ..Self::default() }
     }
 
     /// An attachment to algebraic coordinates.
     pub fn to_coordinates(coordinates: impl IntoIterator<Item = CoordinateId>) -> Self {
-        Self { nodes: Vec::new(), coordinates: coordinates.into_iter().collect() }
+        Self { coordinates: coordinates.into_iter().collect(), ..Self::default() }
     }
 
     /// The only node and its point.

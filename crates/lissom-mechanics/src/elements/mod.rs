@@ -31,6 +31,7 @@ pub(crate) mod point_spring;
 mod polyline;
 pub mod quadrature;
 mod reactions;
+pub mod reeving;
 pub mod rolling;
 pub mod rolling_contact;
 pub mod rope;
@@ -39,11 +40,12 @@ pub mod stop;
 
 pub use contribution::Contribution;
 pub use initial_model::InitialModel;
-pub use kind::{Attached, ElementKind};
+pub use kind::{Attached, ElementKind, Sheave};
 pub use kinds::{LOADS, SPRINGS};
 
 pub use crate::evaluation::capabilities::{
-    Capabilities, Deformable, ForceLaws, LinearLimit, LinearRange, Load, OwnInertia, Spring, StrainSlopes,
+    Capabilities, Deformable, ForceLaws, LinearLimit, LinearRange, Load, OwnInertia, Reeved, Spring,
+    StrainSlopes,
 };
 pub use crate::evaluation::element::{Element, Energy, Tangents, Unknowns, is_same};
 pub use crate::kinematics::local_derivatives::add_block;

@@ -14,7 +14,7 @@ use lissom_motion::Vector3;
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response};
 use super::initial_model::InitialModel;
-use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns};
+use super::{Capabilities, Element, Energy, ForceLaws, Load, Reeved, Spring, Tangents, Unknowns};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Switch};
@@ -82,6 +82,14 @@ pub(crate) trait Measure: Clone + Debug + Send + Sync + 'static {
 
     /// Length by which a rope is longer than the way along its points, and its length [m]. Default: it is no rope.
     fn slack(&self, _at: &Kinematics) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// Whether it is the length of a rope over sheaves.
+    const HAS_SHEAVES: bool = false;
+
+    /// The first point at which a rope no longer lies on its sheave, and how. Default: it has no sheaves.
+    fn off_sheave(&self, _at: &Kinematics) -> Option<(usize, String)> {
         None
     }
 }
@@ -189,7 +197,18 @@ impl<M: Measure, L: MeasuredLaw> Element for OverMeasure<M, L> {
     fn capabilities(&self) -> Capabilities<'_> {
         let load: Option<&dyn Load> = if L::SUPPLIES { Some(self) } else { None };
         let frames = self.measure.frames();
-        Capabilities { load, frames, spring: Some(self), laws: Some(self), ..Capabilities::default() }
+        let reeved: Option<&dyn Reeved> = if M::HAS_SHEAVES { Some(self) } else { None };
+        Capabilities { load, frames, spring: Some(self), laws: Some(self), reeved, ..Capabilities::default() }
+    }
+}
+
+impl<M: Measure, L: MeasuredLaw> Reeved for OverMeasure<M, L> {
+    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)> {
+        let reading = self.measure.read(at);
+        if self.response(&reading, at).force == 0.0 {
+            return None;
+        }
+        self.measure.off_sheave(at)
     }
 }
 

@@ -38,13 +38,13 @@ pub(super) struct Polyline<const N: usize> {
 }
 
 /// Motion of a point in inertial axes.
-struct Point {
-    position: Vector3,
-    velocity: Vector3,
+pub(super) struct Point {
+    pub(super) position: Vector3,
+    pub(super) velocity: Vector3,
     /// Velocity in the node's body axes.
     local_velocity: Vector3,
-    rotation: Matrix3,
-    offset: Vector3,
+    pub(super) rotation: Matrix3,
+    pub(super) offset: Vector3,
 }
 
 impl Point {
@@ -68,7 +68,7 @@ impl Point {
     }
 
     /// Derivative of the position (or velocity) with respect to the node's body-frame degrees of freedom.
-    fn gradient(&self) -> SMatrix<f64, 3, 6> {
+    pub(super) fn gradient(&self) -> SMatrix<f64, 3, 6> {
         let mut gradient = SMatrix::<f64, 3, 6>::zeros();
         gradient.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.rotation);
         gradient.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-self.rotation * skew(&self.offset)));
@@ -134,8 +134,18 @@ impl Polyline<2> {
 }
 
 impl<const N: usize> Polyline<N> {
+    /// The points, from the motions of their nodes.
+    #[inline]
+    pub(super) fn points<'k>(&self, motion: impl Fn(NodeId) -> &'k NodeMotion) -> [Point; N] {
+        std::array::from_fn(|index| match self.places.get(index) {
+            Some((Some(node), place)) => Point::new(motion(self.nodes[*node]), place),
+            Some((None, place)) => Point::fixed(place),
+            None => Point::fixed(&Vector3::zeros()),
+        })
+    }
+
     /// Free length and its rate [m, m/s].
-    fn free(&self, at: &Kinematics) -> [f64; 2] {
+    pub(super) fn free(&self, at: &Kinematics) -> [f64; 2] {
         let mut free = [self.length.value(at.time), self.length.first_derivative(at.time)];
         for (&drum, [radius, start]) in self.drums.iter().zip(&self.pays_out) {
             free[0] += radius * (at.coordinates[drum].value - start);
@@ -163,7 +173,7 @@ impl<const N: usize> Polyline<N> {
     }
 
     /// Adds the forces of a tension on drums.
-    fn add_winding(&self, tension: f64, out: &mut [f64]) {
+    pub(super) fn add_winding(&self, tension: f64, out: &mut [f64]) {
         for (k, [radius, _]) in self.pays_out.iter().enumerate() {
             out[6 * self.nodes.len() + k] -= radius * tension;
         }
@@ -178,11 +188,7 @@ impl<const N: usize> Measure for Polyline<N> {
     }
 
     fn read(&self, at: &Kinematics) -> Shape<N> {
-        let points: [Point; N] = std::array::from_fn(|index| match self.places.get(index) {
-            Some((Some(node), place)) => Point::new(&at.nodes[self.nodes[*node]], place),
-            Some((None, place)) => Point::fixed(place),
-            None => Point::fixed(&Vector3::zeros()),
-        });
+        let points = self.points(|node| &at.nodes[node]);
         let count = if N == 2 { N } else { self.places.len() };
         let mut segments = [Segment::default(); N];
         for (segment, pair) in segments.iter_mut().zip(points[..count].windows(2)) {

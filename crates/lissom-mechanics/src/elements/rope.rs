@@ -1,5 +1,5 @@
 //! A rope over pulleys: a spring and damper without compression along the polyline through several positions, over which it
-//! slides without friction, so that its tension is uniform. Pulleys have no radius. Drums wind it.
+//! slides without friction, so that its tension is uniform. Drums wind it. `reeving.rs` has the length over sheaves with a radius.
 //!
 //! Legend: x_p positions, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates
 //! of drums with initial values q_d0, r_d length paid out per unit.
@@ -17,7 +17,8 @@ use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::over_measure::OverMeasure;
 use super::polyline::Polyline;
-use crate::kinematics::{CoordinateId, GROUND, MAX_NODES, NodeId};
+use super::reeving::Reeving;
+use crate::kinematics::{CoordinateId, GROUND, MAX_NODES, NodeId, Quantity};
 use crate::ports::{PortDeclaration, PortType, Ports};
 use crate::registry::ParameterType::{NotNegative, Positive};
 use crate::registry::{Constant, Function, ParameterError, ParameterType, Parameters, Value, optional};
@@ -96,7 +97,7 @@ pub const KIND: ElementKind = ElementKind {
 };
 
 /// Maximum number of positions of a rope.
-const MAX_PLACES: usize = 16;
+pub(super) const MAX_PLACES: usize = 16;
 
 /// Lengths that drums pay out per unit of their coordinates, and the initial values of these.
 fn drums(
@@ -123,7 +124,7 @@ fn build(
     attached: Attached,
     parameters: &Parameters,
 ) -> Result<Contribution, ParameterError> {
-    let Attached { nodes: along, coordinates: winding } = attached;
+    let Attached { nodes: along, coordinates: mut winding, sheaves } = attached;
     let points: Vec<Vector3> =
         along.iter().map(|(node, place)| model.frame(*node).transform_point(place)).collect();
     let fault = |problem: &str| Err(ParameterError::new("along", problem));
@@ -143,6 +144,9 @@ fn build(
         return fault(&problem);
     }
     let at_start: f64 = lengths.sum();
+    for (index, _) in sheaves.iter().filter(|(index, _)| along[*index].0 != GROUND) {
+        model.check_carried("along", along[*index], true)?;
+    }
     let mut nodes: Vec<NodeId> = Vec::new();
     let mut places = Vec::new();
     for (node, place) in along {
@@ -165,6 +169,17 @@ fn build(
             );
         }
     }
+    let turning = sheaves.iter().filter(|(_, own)| own.turns.is_some()).count();
+    let mut of_sheaves = Vec::new();
+    for own in winding.drain(..turning.min(winding.len())) {
+        if model.coordinate_quantity(own) != Quantity::Angle {
+            let name = model.coordinate_name(own);
+            return fault(&format!(
+                "has a drum whose `joint` has the coordinate `{name}`, which is not an angle"
+            ));
+        }
+        of_sheaves.push((own, model.coordinate_value(own)));
+    }
     let pays_out = drums(model, &winding, parameters)?;
     // It cannot push.
     let pulls = parameters.clone().with("side", Value::Text("tension".to_owned()));
@@ -176,5 +191,13 @@ fn build(
     };
     let line: Polyline<MAX_PLACES> =
         Polyline { nodes, places, length, drums: winding, pays_out, frames: None };
+    if !sheaves.is_empty() {
+        let points = line.points(|node| &model.nodes[node].motion);
+        let mut reeving = Reeving::new(&points, line, &sheaves, of_sheaves)?;
+        if !parameters.has("length") {
+            reeving.set_length(reeving.initial_length(&points));
+        }
+        return Ok(OverMeasure::contribution(model, reeving, law));
+    }
     Ok(OverMeasure::contribution(model, line, law))
 }

@@ -37,6 +37,8 @@ pub struct Capabilities<'e> {
     pub strain: Option<&'e dyn StrainSlopes>,
     /// Deformations of an element with geometric stiffness.
     pub deformation: Option<&'e dyn Deformable>,
+    /// A rope over sheaves.
+    pub reeved: Option<&'e dyn Reeved>,
     /// Inertia besides that of bodies, which is stored in the system.
     pub inertia: Option<&'e dyn OwnInertia>,
     /// Whether it is the inertia of a body, whose forces depend on positions only through the axes in which they are
@@ -129,6 +131,12 @@ pub trait Spring: Element {
     fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {
         None
     }
+}
+
+/// Ropes over sheaves with a radius.
+pub trait Reeved: Element {
+    /// Position of the first point, if it carries a force, at which the rope no longer lies on its sheave or drum, and how.
+    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)>;
 }
 
 /// Elements whose forces follow from functions of a few numbers, with kinks or jumps at which steps end. They have

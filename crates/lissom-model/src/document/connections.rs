@@ -8,8 +8,8 @@ use lissom_motion::Vector3;
 use super::entries::PARTS;
 use super::plausibility;
 use super::{
-    AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputKind,
-    OutputSource, PointMass, Subject, Superelement, interface_name,
+    AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeLocation, NodeReference,
+    OutputKind, OutputSource, PointMass, Subject, Superelement, interface_name,
 };
 use crate::line::Line;
 use crate::parts::context::Context;
@@ -94,7 +94,11 @@ fn drums(context: &Context<'_>, document: &Document) {
         let OutputSource::Joint(joint) = &output.source else { continue };
         let winds = |spring: &&Component| {
             let Attachment { nodes, coordinates, .. } = &spring.attachment;
-            !nodes.is_empty() && coordinates.iter().any(|(drum, _)| drum.value == joint.value)
+            // The tension acts on drums with a radius themselves.
+            let is_turned = |own: &&NodeLocation| own.sheave.is_some_and(|own| own.turns.is_some());
+            let with_radius = nodes.iter().filter(is_turned).count();
+            let mut paying_out = coordinates.iter().skip(with_radius);
+            !nodes.is_empty() && paying_out.any(|(drum, _)| drum.value == joint.value)
         };
         for rope in document.springs.iter().filter(winds) {
             let message = format!(

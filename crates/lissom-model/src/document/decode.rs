@@ -12,7 +12,7 @@ use super::entries::PARTS;
 use super::tables::variants;
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, elastic_solids, events,
-    ground, initial, local_loads, materials, outputs, shells, signals, superelements,
+    ground, initial, local_loads, materials, outputs, ports, shells, signals, superelements,
 };
 use crate::expression;
 use crate::files::library::Library;
@@ -93,7 +93,8 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let beams = beams::beams(context, &bodies, &point_masses, &sections, (&meshes, &superelements));
     let places = connections::places((&beams, &superelements), meshes, &bodies, &point_masses);
     let joints = components::read(context, "joints", registry, &places);
-    let springs = components::read(context, "springs", registry, &places);
+    let mut springs = components::read(context, "springs", registry, &places);
+    ports::turn_drums(context, &joints, &mut springs);
     let loads = components::read(context, "loads", registry, &places);
     let local_loads = local_loads::local_loads(context);
     let ground = ground::ground(context);

@@ -39,6 +39,7 @@ use std::sync::Arc;
 
 use lissom_contact::forms::PlacedSolid;
 use lissom_flexible::superelement::ReducedMatrices;
+use lissom_mechanics::elements::Sheave;
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3, Vector6};
@@ -415,6 +416,8 @@ pub struct NodeLocation {
     pub node: Located<NodeReference>,
     /// Location at the start [m]; none for that of the node.
     pub at: Option<Vector3>,
+    /// The sheave of a rope with its centre there; its joint is the next coordinate.
+    pub sheave: Option<Sheave>,
 }
 
 /// What a joint, spring or load is attached to, in the order of the ports of its kind.

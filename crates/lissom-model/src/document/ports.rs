@@ -1,11 +1,12 @@
 //! Ports of joints, springs and loads: nodes, locations, directions, coordinates and beams, read as their kind declares them.
 
+use lissom_mechanics::elements::Sheave;
 use lissom_mechanics::ports::{PortDeclaration, PortType, Ports};
 use lissom_mechanics::registry::ModelAxis;
 use lissom_motion::Vector3;
 
 use super::connections::Places;
-use super::{Attachment, CoordinateName, NodeLocation, NodeReference};
+use super::{Attachment, Component, CoordinateName, NodeLocation, NodeReference};
 use crate::expression::Formula;
 use crate::format::keys::Shape;
 use crate::line::are_parallel;
@@ -37,7 +38,9 @@ pub(super) fn read(
             PortType::Direction(default) => {
                 direction(reader, key, (ports, default), &own.axes).map(|direction| own.axes.push(direction))
             }
-            PortType::Locations => locations(reader, key, places).map(|nodes| own.nodes = nodes),
+            PortType::Locations => locations(reader, key, places).map(|(nodes, coordinates)| {
+                (own.nodes, own.coordinates) = (nodes, coordinates);
+            }),
             PortType::Coordinate(_) => {
                 joint(reader, key, name).map(|joint| own.coordinates.push((joint, None)))
             }
@@ -46,7 +49,7 @@ pub(super) fn read(
             }
             PortType::Coordinates => match reader.node(key) {
                 None => (!required).then_some(()),
-                Some(node) => coordinates(reader, (key, node)).map(|all| own.coordinates = all),
+                Some(node) => coordinates(reader, (key, node)).map(|all| own.coordinates.extend(all)),
             },
             PortType::NamedCoordinates => {
                 own.coordinates = formula.map(named).unwrap_or_default();
@@ -72,7 +75,7 @@ fn add_node(reader: &Reader<'_, '_>, key: &str, moves: bool, nodes: &mut Vec<Nod
         reader.context.report(problem.help("`base` and `tip` must be different nodes"));
         return None;
     }
-    nodes.push(NodeLocation { node, at: None });
+    nodes.push(NodeLocation { node, at: None, sheave: None });
     Some(())
 }
 
@@ -120,12 +123,17 @@ fn location(
     own_place(reader.context, reader.scope, node, places).map(LocatedAt::Place)
 }
 
-/// Nodes in a sequence, each with its location.
-fn locations(reader: &Reader<'_, '_>, key: &str, places: &Places) -> Option<Vec<NodeLocation>> {
+/// Nodes in a sequence, each with its location, and the coordinates of joints of drums among them.
+fn locations(
+    reader: &Reader<'_, '_>,
+    key: &str,
+    places: &Places,
+) -> Option<(Vec<NodeLocation>, Vec<CoordinateName>)> {
     let (context, node) = (reader.context, reader.node(key)?);
     let Value::List(list) = &node.value else {
         return context.wrong_type(node, &reader.words(key), "a list of positions");
     };
+    let mut coordinates = Vec::new();
     let read = |(index, entry): (usize, &Node)| {
         let what = format!("position {} of {}", index + 1, reader.words(key));
         let own = Reader::open(context, entry, (what, entry.span), Shape::place_keys())?;
@@ -134,10 +142,51 @@ fn locations(reader: &Reader<'_, '_>, key: &str, places: &Places) -> Option<Vec<
             Some(place) => context.place(place, &own.words("at")).map(|place| place.value),
             None => own_place(context, reader.scope, &node, places),
         };
-        Some(NodeLocation { node, at: Some(at?) })
+        let is_end = index == 0 || index + 1 == list.len();
+        let sheave = sheave(&own, is_end, &mut coordinates)?;
+        Some(NodeLocation { node, at: Some(at?), sheave })
     };
     let all: Vec<_> = list.iter().enumerate().map(read).collect();
-    all.into_iter().collect()
+    Some((all.into_iter().collect::<Option<_>>()?, coordinates))
+}
+
+/// The sheave at a position of a rope, if there is one; none if it is wrong. Adds the coordinate of its joint.
+#[allow(clippy::option_option, reason = "the outer one is of errors, as everywhere in decoders")]
+fn sheave(
+    own: &Reader<'_, '_>,
+    is_end: bool,
+    coordinates: &mut Vec<CoordinateName>,
+) -> Option<Option<Sheave>> {
+    let context = own.context;
+    if !own.has("radius") {
+        let Some(key) = ["axis", "sense", "joint"].into_iter().find(|key| own.has(key)) else {
+            return Some(None);
+        };
+        let message = format!("{} has `{key}`, but no `radius`", own.what);
+        return context.fail(own.node(key)?.span, message, "add the `radius` of the sheave [m]");
+    }
+    let radius = own.number("radius")?.value;
+    if !own.has("axis") {
+        let message = format!("{} has a `radius`, but no `axis`", own.what);
+        return context.fail(
+            own.node("radius")?.span,
+            message,
+            "add the `axis` of the sheave, such as [0, 1, 0]",
+        );
+    }
+    let axis = own.vector("axis")?.value;
+    let is_positive = if own.has("sense") { Some(own.choice("sense")?.value == "positive") } else { None };
+    if let Some(node) = own.node("joint") {
+        if !is_end {
+            let message = format!("{} has a `joint`, but is no end of the rope", own.what);
+            let help =
+                "a rope slides over sheaves between its ends; let two ropes end on a pulley that it turns";
+            return context.fail(node.span, message, help);
+        }
+        coordinates.push(coordinate(context, node, &own.words("joint"))?);
+    }
+    // The sign of a joint is found when all joints are known.
+    Some(Some(Sheave { radius, axis, is_positive, turns: own.has("joint").then_some(1.0) }))
 }
 
 /// Cosine between axes that count as perpendicular: digits of a text.
@@ -229,20 +278,6 @@ fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Ve
     let Value::List(list) = &node.value else {
         return context.wrong_type(node, &what, "a list of coordinates of joints");
     };
-    let read = |entry: &Node| {
-        let Value::Text(text) = &entry.value else {
-            return context.wrong_type(entry, &format!("each entry of {what}"), "the name of a coordinate");
-        };
-        let whole = context.entry_named("joints", text, entry, &what)?;
-        let (name, component) = match text.rsplit_once('.') {
-            Some((owner, component)) if !context.has("joints", &whole) => {
-                (context.entry_named("joints", owner, entry, &what)?, Some(component.to_owned()))
-            }
-            _ => (whole, None),
-        };
-        let is_known = context.is_known("joints", &name, entry.span, &what);
-        is_known.then(|| (Located::new(name, entry.span), component))
-    };
     if list.is_empty() {
         return context.fail(
             node.span,
@@ -250,8 +285,64 @@ fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Ve
             "list coordinates, such as \"arm.angle\"",
         );
     }
-    let all: Vec<_> = list.iter().map(read).collect();
+    let all: Vec<_> = list.iter().map(|entry| coordinate(context, entry, &what)).collect();
     all.into_iter().collect()
+}
+
+/// A joint, or a coordinate of a joint, by name.
+fn coordinate(context: &Context<'_>, entry: &Node, what: &str) -> Option<CoordinateName> {
+    let Value::Text(text) = &entry.value else {
+        return context.wrong_type(entry, &format!("each entry of {what}"), "the name of a coordinate");
+    };
+    let whole = context.entry_named("joints", text, entry, what)?;
+    let (name, component) = match text.rsplit_once('.') {
+        Some((owner, component)) if !context.has("joints", &whole) => {
+            (context.entry_named("joints", owner, entry, what)?, Some(component.to_owned()))
+        }
+        _ => (whole, None),
+    };
+    let is_known = context.is_known("joints", &name, entry.span, what);
+    is_known.then(|| (Located::new(name, entry.span), component))
+}
+
+/// Finds the signs with which joints turn the drums of ropes about their axes.
+pub(super) fn turn_drums(context: &Context<'_>, joints: &[Component], springs: &mut [Component]) {
+    for rope in springs {
+        let Attachment { nodes, coordinates, .. } = &mut rope.attachment;
+        let drums = nodes.iter_mut().filter(|own| own.sheave.is_some_and(|own| own.turns.is_some()));
+        for (drum, (name, _)) in drums.zip(coordinates) {
+            let Some(joint) = joints.iter().find(|joint| joint.name.value == name.value) else { continue };
+            let own = &joint.attachment;
+            let sign = match own.nodes.as_slice() {
+                [base, _] if base.node.value == drum.node.value => -1.0,
+                [_, tip] if tip.node.value == drum.node.value => 1.0,
+                _ => {
+                    let message = format!(
+                        "rope `{}` is wound on a drum that joint `{}` does not turn",
+                        rope.name.value, name.value
+                    );
+                    let problem = Problem::error(name.span, message).also(drum.node.span, "the drum");
+                    context.report(
+                        problem
+                            .help("let the end be `on` the tip of the joint, or name the joint of the drum"),
+                    );
+                    continue;
+                }
+            };
+            let Some(sheave) = &mut drum.sheave else { continue };
+            let Some(axis) = own.axes.first().filter(|axis| are_parallel(&axis.value, &sheave.axis)) else {
+                let message = format!(
+                    "the `axis` of the drum of rope `{}` is not that of its joint `{}`",
+                    rope.name.value, name.value
+                );
+                context.report(
+                    Problem::error(name.span, message).help("specify the axis about which the joint turns"),
+                );
+                continue;
+            };
+            sheave.turns = Some(sign * axis.value.dot(&sheave.axis).signum());
+        }
+    }
 }
 
 /// Where a node is. The ground has its position where the part is that names it.

@@ -24,6 +24,23 @@ impl Shape {
         vec![
             required("on", Self::Node, "", "the node that carries it"),
             optional("at", Self::Place, "m", "location at the start; default: the node's position"),
+            optional(
+                "radius",
+                Self::Positive,
+                "m",
+                "of a sheave with its centre there; at an end of a drum on which the rope is wound",
+            ),
+            unitless("axis", Self::Direction, "axis of the sheave at the start, global axes"),
+            unitless(
+                "sense",
+                choice(&["positive", "negative"]),
+                "in which the rope turns about `axis` from its first point to its last; default: from the neighbours",
+            ),
+            unitless(
+                "joint",
+                Self::Text,
+                "at an end: joint or coordinate by which the drum turns, for more than half a turn",
+            ),
         ]
     }
 

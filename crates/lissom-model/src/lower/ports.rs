@@ -19,7 +19,20 @@ const SMOOTH: f64 = 0.999_39;
 /// Nodes with points in their axes, and coordinates.
 pub(super) fn attached(component: &Component, builder: &Builder, names: &Names) -> Result<Attached, Problem> {
     let mut attached = Attached::to_coordinates(coordinates(component, builder, names)?);
-    for own in &component.attachment.nodes {
+    let listed = &component.attachment;
+    let turning = listed.nodes.iter().filter(|own| own.sheave.is_some_and(|own| own.turns.is_some())).count();
+    if turning > 0 {
+        for own in &listed.coordinates[..turning] {
+            let found = all_of(component, std::slice::from_ref(own), builder, names)?.len();
+            if found != 1 {
+                let message = format!("joint `{}` has {found} coordinates", own.0.value);
+                let help = "name the one that turns the drum, such as \"axle.angle\"";
+                return Err(Problem::error(own.0.span, message).help(help));
+            }
+        }
+    }
+    for (index, own) in listed.nodes.iter().enumerate() {
+        attached.sheaves.extend(own.sheave.map(|sheave| (index, sheave)));
         let node = names.node(&own.node)?;
         let local = |at: Vector3| builder.initial_frame(node).inverse_transform_point(&at);
         attached.nodes.push((node, own.at.map_or_else(Vector3::zeros, local)));

@@ -123,7 +123,7 @@ fn cable(component: &Component, places: &Places<'_>, anchors: Option<[Anchor; 2]
 pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
     let (start, end) = (document.analysis.start, document.analysis.end);
     let drawn = |component: &Component| {
-        let [NodeLocation { node: on, at: Some(at) }] = component.attachment.nodes.as_slice() else {
+        let [NodeLocation { node: on, at: Some(at), .. }] = component.attachment.nodes.as_slice() else {
             return None;
         };
         // How large it is depends on the motion: no arrow rather than a wrong one.

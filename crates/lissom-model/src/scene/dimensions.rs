@@ -1,11 +1,12 @@
 //! Solids in metres, for kinds whose data state dimensions: wheels, tyres, rails, gears and drums.
 
+use lissom_mechanics::elements::reeving;
 use lissom_motion::Vector3;
 
 use super::places::{Anchor, Places};
 use super::solids::{Axes, Form, Solid, Tone};
 use super::symbols::{End, joint_ends};
-use crate::document::{Component, Document};
+use crate::document::{Attachment, Component, Document};
 
 /// Number of slices of a profile.
 const SLICES: i32 = 8;
@@ -24,7 +25,7 @@ pub(super) fn solids(
         "rolling_contact" => disc(component, places, ends, 0.16),
         "wheel_on_rail" => wheel_and_rail(component, places, ends),
         "gear" => gears(component, document, places),
-        "rope" => drums(component, document, places),
+        "rope" => Some(drums(component, document, places)),
         _ => None,
     };
     found.unwrap_or_default()
@@ -177,13 +178,9 @@ fn toothed(axes: &Axes, radius: f64) -> Vec<Solid> {
     std::iter::once(body).chain((0..TEETH).map(tooth)).collect()
 }
 
-/// A cylinder at the joint of each drum of a rope.
-fn drums(
-    component: &Component,
-    document: &Document,
-    places: &Places<'_>,
-) -> Option<Vec<(Anchor, Vec<Solid>)>> {
-    let radii = component.parameters.numbers("drum_radii").ok()?;
+/// Cylinders at the joints of drums of a rope, and at its sheaves.
+fn drums(component: &Component, document: &Document, places: &Places<'_>) -> Vec<(Anchor, Vec<Solid>)> {
+    let radii = component.parameters.numbers("drum_radii").unwrap_or_default();
     let drum = |(name, radius): (&str, &f64)| {
         let joint = document.joints.iter().find(|joint| joint.name.value == name)?;
         let (anchor, axes) = *joint_ends(joint, document, places)?.get(1)?;
@@ -191,8 +188,53 @@ fn drums(
         let bar = axes.block([1.6 * radius, 1.02 * radius, 0.15 * radius], [0.0; 3], Tone::Light);
         Some((anchor, vec![axes.cylinder(0, radius, radius, Tone::Dark), bar]))
     };
-    let drums = component.attachment.coordinates.iter();
-    Some(drums.map(|(drum, _)| drum.value.as_str()).zip(radii).filter_map(drum).collect())
+    let Attachment { nodes, coordinates, .. } = &component.attachment;
+    let with_radius = nodes.iter().filter(|own| own.sheave.is_some_and(|own| own.turns.is_some())).count();
+    let drums = coordinates.iter().skip(with_radius);
+    let of_joints = drums.map(|(drum, _)| drum.value.as_str()).zip(radii).filter_map(drum);
+    let sheaves = nodes.iter().filter_map(|own| {
+        let sheave = own.sheave?;
+        let anchor = places.anchor(&own.node, &own.at?)?;
+        let axes = Axes::of(&places.frame(anchor.node).rotation.apply_inverse(&sheave.axis), None);
+        let bar = axes.block(
+            [0.5 * sheave.radius, 1.02 * sheave.radius, 0.15 * sheave.radius],
+            [0.0; 3],
+            Tone::Light,
+        );
+        Some((anchor, vec![axes.cylinder(0, sheave.radius, 0.3 * sheave.radius, Tone::Dark), bar]))
+    });
+    of_joints.chain(sheaves).collect()
+}
+
+/// Positions along a rope over sheaves, with arcs as at the start; none if it has no sheaves. Those on a drum belong to the part that
+/// carries it, as they do not turn with the drum.
+pub(super) fn rope_line(
+    component: &Component,
+    document: &Document,
+    places: &Places<'_>,
+) -> Option<Vec<Anchor>> {
+    let Attachment { nodes, coordinates, .. } = &component.attachment;
+    let sheaves: Vec<_> =
+        nodes.iter().enumerate().filter_map(|(index, own)| Some((index, own.sheave?))).collect();
+    if sheaves.is_empty() {
+        return None;
+    }
+    let points: Vec<Vector3> = nodes.iter().map(|own| own.at).collect::<Option<_>>()?;
+    let mut joints = coordinates.iter();
+    let mut line = Vec::new();
+    for (own, arc) in nodes.iter().zip(reeving::path(&points, &sheaves)?) {
+        let mut carrier = &own.node;
+        if own.sheave.is_some_and(|own| own.turns.is_some()) {
+            let (name, _) = joints.next()?;
+            let joint = document.joints.iter().find(|joint| joint.name.value == name.value)?;
+            let ends = &joint.attachment.nodes;
+            carrier = &ends.iter().find(|end| end.node.value != own.node.value)?.node;
+        }
+        for at in &arc {
+            line.push(places.anchor(carrier, at)?);
+        }
+    }
+    Some(line)
 }
 
 fn position(places: &Places<'_>, anchor: &Anchor) -> Vector3 {
@@ -235,6 +277,29 @@ mod tests {
         let disc = symbols(include_str!("../../../../examples/rolling-disc.toml"), "floor");
         let ring = disc[0].solids.iter().find(|solid| solid.form == Form::Ring).expect("it has a rim");
         assert!((ring.size[0] + ring.size[1] - 0.2).abs() < 1e-12, "{ring:?}");
+    }
+
+    /// The rope lies on the sheave along its arc, and on the drum it begins at the tangent point, which the ground carries.
+    #[test]
+    fn ropes_are_drawn_around_their_sheaves() {
+        let text = "lissom = 1\n[bodies.drum]\nmass = 1\ninertia = [1, 1, 1]\nposition = [-1, 0, 0]\n[point_masses.load]\nmass = 1\n\
+             position = [0.5, 0, -3]\n[joints.axle]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"drum\"\naxis = [0, 1, 0]\n\
+             [springs.rope]\nkind = \"rope\"\nstiffness = 1\nalong = [\n\
+             { on = \"drum\", radius = 0.5, axis = [0, 1, 0], sense = \"positive\", joint = \"axle\" },\n\
+             { on = \"ground\", at = [0, 0, 0], radius = 0.5, axis = [0, 1, 0] }, { on = \"load\" }]\n\
+             [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
+        let document = Document::parse(text, "model.toml", &registry()).expect("it is right");
+        let built = build(&document, &[]).expect("it is right");
+        let scene = Scene::of(&document, &Placed::as_built(&built));
+        let points: Vec<_> = scene.rods.iter().map(|rod| rod.anchors[0]).collect();
+        assert_eq!(points.len(), 11, "ten points on the arc of 90 degrees, and the drum");
+        let on = |anchor: &super::Anchor, x: f64| (anchor.position[0] - x).hypot(anchor.position[2]);
+        assert!((on(&points[0], -1.0) - 0.5).abs() < 1e-12 && (points[0].position[2] - 0.5).abs() < 1e-12);
+        assert!(points[0].node == lissom_mechanics::kinematics::GROUND);
+        assert!(points[1..].iter().all(|point| (on(point, 0.0) - 0.5).abs() < 1e-12));
+        assert!((points[10].position[0] - 0.5).abs() < 1e-12, "{:?}", points[10]);
+        let wheels = scene.symbols.iter().filter(|own| own.name == "rope" && own.unit == Some(1.0)).count();
+        assert_eq!(wheels, 2, "a drum and a sheave");
     }
 
     #[test]

@@ -82,7 +82,8 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
                 _ if component.attachment.nodes.is_empty() => of_others,
                 _ => &tip,
             };
-            if is_symbol && !solids.is_empty() {
+            let has_radius = component.attachment.nodes.get(index).is_some_and(|own| own.sheave.is_some());
+            if is_symbol && !has_radius && !solids.is_empty() {
                 symbols.push(Symbol {
                     name: component.name.value.clone(),
                     table,
@@ -95,10 +96,12 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
         }
         if matches!(kind, Drawn::WithRod(_)) {
             let radius = component.parameters.number("diameter").ok().map(|diameter| 0.5 * diameter);
-            rods.extend(ends.windows(2).map(|pair| Rod {
+            let line = dimensions::rope_line(component, document, places)
+                .unwrap_or_else(|| ends.iter().map(|(anchor, _)| *anchor).collect());
+            rods.extend(line.windows(2).map(|pair| Rod {
                 name: component.name.value.clone(),
                 table,
-                anchors: [pair[0].0, pair[1].0],
+                anchors: [pair[0], pair[1]],
                 radius,
             }));
         }

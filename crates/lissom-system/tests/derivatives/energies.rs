@@ -13,7 +13,7 @@ use nalgebra::DMatrix;
 use crate::derivatives::configuration::{
     Configuration, Random, Unknown, difference, sample_parameters, unknown,
 };
-use crate::derivatives::ports::{attached, two_coordinates};
+use crate::derivatives::ports::{OVER_SHEAVES, attached, two_coordinates};
 use crate::derivatives::two_bodies;
 
 /// It holds what moves, and stores nothing.
@@ -63,7 +63,8 @@ fn with_spring(
 /// Friction has a bristle besides the coordinate: force on the coordinate at rest is the derivative of the energy by the bristle.
 #[test]
 fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
-    let with_energy = SPRINGS.iter().filter(|kind| !WITHOUT_ENERGY.contains(&kind.name));
+    let with_energy =
+        SPRINGS.iter().chain([&OVER_SHEAVES]).filter(|kind| !WITHOUT_ENERGY.contains(&kind.name));
     for (seed, kind) in with_energy.enumerate() {
         let mut random = Random::new(seed as u64 + 70);
         let (system, state, _) = with_spring(kind, false, &mut random);
@@ -103,7 +104,7 @@ fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
 /// of the positions that it acts on.
 #[test]
 fn springs_report_the_motion_that_their_forces_work_on() {
-    for (seed, kind) in SPRINGS.iter().enumerate() {
+    for (seed, kind) in SPRINGS.iter().chain([&OVER_SHEAVES]).enumerate() {
         let mut random = Random::new(seed as u64 + 90);
         let (system, state, element) = with_spring(kind, true, &mut random);
         let mut here = Configuration::random(&system, &state, 0.3, &mut random);
@@ -152,7 +153,7 @@ fn springs_report_the_motion_that_their_forces_work_on() {
 /// Gradients of elongations, rates and forces of springs, of their forces and moments on the tip, and of powers of springs and loads.
 #[test]
 fn gradients_of_what_elements_report_are_those_of_differences() {
-    for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
+    for (seed, kind) in SPRINGS.iter().chain(LOADS).chain([&OVER_SHEAVES]).enumerate() {
         let mut random = Random::new(seed as u64 + 110);
         let (system, state, element) = with_spring(kind, true, &mut random);
         let here = Configuration::random(&system, &state, 0.3, &mut random);

@@ -143,7 +143,7 @@ fn check_sum(
 
 #[test]
 fn springs_and_loads() {
-    for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
+    for (seed, kind) in SPRINGS.iter().chain(LOADS).chain([&ports::OVER_SHEAVES]).enumerate() {
         for flag in [false, true] {
             let mut random = Random::new(seed as u64 + 3);
             let (mut builder, nodes) = two_bodies(&mut random);

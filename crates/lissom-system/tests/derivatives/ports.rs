@@ -1,6 +1,6 @@
 //! Attachments to every form of port, for kinds of all tables.
 
-use lissom_mechanics::elements::{Attached, ElementKind};
+use lissom_mechanics::elements::{Attached, ElementKind, Sheave, rope};
 use lissom_mechanics::joints::slider::CarriedPoint;
 use lissom_mechanics::joints::{self, JointKind};
 use lissom_mechanics::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
@@ -25,6 +25,9 @@ pub(crate) fn attached(
             PortType::Locations => {
                 let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
                 attached.nodes = order.map(|node| (node, random.vector())).to_vec();
+                if kind.name == OVER_SHEAVES.name {
+                    attached.sheaves = sheaves(builder, &attached);
+                }
             }
             PortType::Coordinate(wanted) => {
                 attached.coordinates.push(coordinate(builder, nodes, wanted, random));
@@ -36,6 +39,22 @@ pub(crate) fn attached(
         }
     }
     attached
+}
+
+/// A rope over a sheave on the ground, one on a body, and onto a drum, with points between.
+pub(crate) static OVER_SHEAVES: ElementKind = ElementKind { name: "rope over sheaves", ..rope::KIND };
+
+/// Sheaves in the planes of their neighbours at the start.
+fn sheaves(builder: &Builder, attached: &Attached) -> Vec<(usize, Sheave)> {
+    let points: Vec<Vector3> =
+        (attached.nodes.iter()).map(|(node, at)| builder.initial_frame(*node).transform_point(at)).collect();
+    let span = |from: usize| points[from + 1] - points[from];
+    let sheave = |axis: Vector3, is_positive| Sheave { radius: 0.05, axis, is_positive, turns: None };
+    vec![
+        (1, sheave(span(0).cross(&span(1)), None)),
+        (2, sheave(span(1).cross(&span(2)), None)),
+        (4, sheave(span(3).cross(&Vector3::x()), Some(false))),
+    ]
 }
 
 /// Two bodies at random positions.

@@ -3,4 +3,5 @@
 mod force_laws;
 mod forces_on_tips;
 mod ropes;
+mod sheaves;
 mod stops_and_bushings;
