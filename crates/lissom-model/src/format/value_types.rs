@@ -392,7 +392,12 @@ impl Shape {
             Self::Places => {
                 let schema = list_of(schema_of_keys(&Self::place_keys()), 2);
                 let rust = Fixed("Vec<(Node, PositionOrNode)>");
-                row("a list of `{ on, at }`, `at` may be omitted", schema, rust, "list[Table]")
+                row(
+                    "a list of `{ on, at }`, `at` may be omitted; sheaves and drums also have `radius`, `axis`, `sense` and `joint`",
+                    schema,
+                    rust,
+                    "list[Table]",
+                )
             }
             Self::Interfaces => {
                 let schema = list_of(schema_of_keys(&Self::interface_keys()), 1);

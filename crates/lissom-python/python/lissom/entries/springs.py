@@ -146,7 +146,7 @@ class Rope(Spring):
 
     Args:
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
-        along: points over which it passes, from one end to the other [m]; a list of `{ on, at }`, `at` may be omitted.
+        along: points over which it passes, from one end to the other [m]; a list of `{ on, at }`, `at` may be omitted; sheaves and drums also have `radius`, `axis`, `sense` and `joint`.
         drums: coordinates of joints that pay it out, such as "drum.angle"; the name of a joint stands for all its coordinates; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs, or nothing.
         stiffness: Stiffness of the whole rope; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping of the whole rope; default 0 [N s/m]; a number ≥ 0, or nothing.
