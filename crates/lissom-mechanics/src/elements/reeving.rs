@@ -50,7 +50,7 @@ struct Wheel {
     /// Axis, and two perpendicular directions, in axes of the node.
     axis: Vector3,
     across: [Vector3; 2],
-    /// Of a drum the angle of its span at the start; of a sheave the least wrap angle that is distinguished from one more turn [rad].
+    /// Angle of a drum's span at the start, or least wrap angle of a sheave that is distinguished from one more turn [rad].
     from: f64,
     /// Coordinate of a drum's joint, its sign about the axis, and its initial value.
     drum: Option<(CoordinateId, f64, f64)>,
@@ -287,7 +287,7 @@ impl Reeving {
         (spans, all_exist)
     }
 
-    /// Of a drum the angle of its span in axes of the node, without whole turns; of a sheave the wrap angle, in the sense of the rope.
+    /// Angle of a drum's span in axes of the node, without whole turns, or wrap angle of a sheave in the sense of the rope [rad].
     fn angle(&self, points: &[Point; MAX_PLACES], spans: &[Span<f64>], index: usize, own: &Wheel) -> f64 {
         let before = index.checked_sub(1).map(|before| Vector3::from(spans[before].directions[1]));
         let after = (index + 1 < self.wheels.len()).then(|| Vector3::from(spans[index].directions[0]));
@@ -303,7 +303,7 @@ impl Reeving {
         }
     }
 
-    /// Of a sheave its wrap angle; of a drum the angle by which its span has turned relative to the node, and relative to the carrier.
+    /// Angles by which a drum's span has turned relative to the node and to the carrier, or the wrap angle of a sheave in both places [rad].
     fn turned(
         &self,
         points: &[Point; MAX_PLACES],
