@@ -4,6 +4,7 @@ pub(crate) mod answers;
 pub(crate) mod damage;
 pub(crate) mod damaged_expressions;
 
+use lissom_mechanics::elements::rope;
 use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::{Parameter, ParameterType, optional, required};
 use lissom_model::registry::{ChoiceEntry, KindEntry, Registry};
@@ -58,6 +59,7 @@ pub(crate) fn registry() -> Registry {
     let springs = vec![
         kind("point", "stiffness = 1.0", Ports::TWO_LOCATIONS, POINT),
         kind("torsional", "joint = \"hinge\"\nstiffness = 1.0", Ports::ROTATION, TORSIONAL),
+        kind("rope", "stiffness = 1.0", rope::KIND.ports, rope::KIND.parameters),
     ];
     let loads = vec![
         kind("force", "on = \"a.end\"\nvector = [0, 0, 1]", Ports::ONE_NODE, LOAD),
