@@ -13,7 +13,7 @@
 //! x_P is the point of the body at P: the tension acts there, along u. Terms with m are of second order in the angle between the rope and
 //! the plane of a sheave, and zero in this plane. They make the force the gradient of the length.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, FRAC_PI_8, PI, TAU};
 use std::ops::Neg;
 use std::sync::Arc;
 
@@ -29,18 +29,8 @@ use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, Kinematics, MAX_NODES, USUAL_UNKNOWNS};
 use crate::registry::{Constant, Function, ParameterError};
+use crate::round_off;
 use crate::signals::measurement::Gradient;
-
-/// Sine of the least angle between neighbouring centres that determines the side of a sheave.
-const CLEAR: f64 = 1e-4;
-/// Largest sine of the angle between a rope and the plane of a sheave: 45 degrees.
-const MAX_FLEET: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Wrap angle from which a rope is taken to pass a sheave on its other side [rad].
-const MAX_WRAP: f64 = 1.75 * PI;
-/// Angle by which the direction of a rope may turn about the axis of its drum, relative to the carrier and its start [rad].
-const MAX_DEPARTURE: f64 = 0.9 * PI;
-/// Wrap angle below which the rope has left the sheave [rad]: round-off.
-const NO_WRAP: f64 = -1e-9;
 
 /// A sheave or drum.
 #[derive(Clone, Debug)]
@@ -183,7 +173,7 @@ impl Reeving {
                 (Some(given), _) => given,
                 (None, [Some(before), Some(after)]) => {
                     let sine = axis.dot(&before.cross(&after));
-                    if sine.is_nan() || sine.abs() < CLEAR {
+                    if sine.is_nan() || sine.abs() < round_off::GIVEN {
                         return Err(fault_at(
                             point,
                             "whose side does not follow from its neighbours, which are in line with it: specify `sense`",
@@ -237,7 +227,8 @@ impl Reeving {
                 self.angle(points, &spans, index, own)
             } else {
                 let wrap = in_turn(self.angle(points, &spans, index, own), 0.0);
-                if wrap > MAX_WRAP {
+                // It is taken to pass the sheave on its other side.
+                if wrap > TAU - FRAC_PI_4 {
                     let problem = format!(
                         "that it would wrap by {:.0} degrees: it passes on the other side. Specify the other `sense`, or remove the sheave",
                         wrap.to_degrees()
@@ -347,7 +338,7 @@ impl Reeving {
             index.checked_sub(1).into_iter().chain((index + 1 < self.wheels.len()).then_some(index));
         let sine =
             neighbours.map(|span| axis.dot(&Vector3::from(spans[span].along)).abs()).fold(0.0, f64::max);
-        (sine > MAX_FLEET).then(|| sine.min(1.0).asin())
+        (sine > FRAC_1_SQRT_2).then(|| sine.min(1.0).asin())
     }
 
     /// Adds a force at the point `index` and a moment about it, in inertial axes.
@@ -523,7 +514,8 @@ impl Measure for Reeving {
             let value = |own: CoordinateId| at.coordinates[own].value;
             let [_, angle] = self.turned(&shape.points, shape.spans(), (index, own), value);
             let degrees = angle.to_degrees();
-            if is_end && angle.abs() > MAX_DEPARTURE {
+            // A direction that is nearly reversed could have turned either way.
+            if is_end && angle.abs() > PI - FRAC_PI_8 {
                 let cause = if own.drum.is_some() {
                     "relative to the carrier of its drum"
                 } else {
@@ -531,7 +523,7 @@ impl Measure for Reeving {
                 };
                 return Some((index, format!("has turned by {degrees:.1} degrees {cause}")));
             }
-            if !is_end && (angle < NO_WRAP || angle > own.from + TAU - 0.1 * PI) {
+            if !is_end && (angle < -round_off::EQUILIBRIUM || angle > own.from + TAU - FRAC_PI_8) {
                 return Some((
                     index,
                     format!("no longer lies on the sheave: its wrap angle is {degrees:.1} degrees"),
@@ -546,7 +538,6 @@ impl Measure for Reeving {
 /// if it has no such line.
 #[must_use]
 pub fn path(points: &[Vector3], sheaves: &[(usize, Sheave)]) -> Option<Vec<Vec<Vector3>>> {
-    const ARC: f64 = PI / 18.0;
     if points.len() > MAX_PLACES || points.len() < 2 {
         return None;
     }
@@ -564,7 +555,7 @@ pub fn path(points: &[Vector3], sheaves: &[(usize, Sheave)]) -> Option<Vec<Vec<V
         let wrap = if is_end { 0.0 } else { reeving.turned(&points, &spans, (index, wheel), |_| 0.0)[0] };
         let direction = if index == 0 { spans[0].directions[0] } else { spans[index - 1].directions[1] };
         let arm = wheel.radius * Vector3::from(direction).cross(&wheel.axis);
-        let count = if is_end { 0 } else { (wrap / ARC - 1e-6).ceil().max(1.0) as u32 };
+        let count = if is_end { 0 } else { (wrap / PI * 18.0 - 1e-6).ceil().max(1.0) as u32 };
         let share = |k: u32| wrap * wheel.radius.signum() * f64::from(k) / f64::from(count.max(1));
         (0..=count)
             .map(|k| centre + lissom_motion::Rotation::about_axis(&wheel.axis, share(k)).apply(&arm))

@@ -115,7 +115,7 @@ impl OperatingPoint {
         self.linearized_for_modes(document, then)
     }
 
-    /// The same for modes, which may be those of a mean over the azimuth: `then` receives the model of one azimuth of the mean state.
+    /// Linearises for modes, which may be those of a mean over the azimuth: `then` receives the model of one azimuth of the mean state.
     pub(crate) fn linearized_for_modes<T, E: From<ModesError>>(
         self,
         document: &Document,
