@@ -3,7 +3,7 @@
 use super::kind::ElementKind;
 use super::{
     bearing, bushing, coordinate_dynamics, coordinate_spring, force, force_between, friction, gyrostat,
-    joint_load, latch, moment, point_spring, rolling_contact, rope, stop,
+    joint_load, latch, moment, point_spring, rolling_contact, rope, stop, tyre,
 };
 
 /// Springs and dampers, one line each.
@@ -11,6 +11,7 @@ pub static SPRINGS: &[ElementKind] = &[
     coordinate_spring::AXIAL,
     point_spring::KIND,
     rolling_contact::KIND,
+    tyre::KIND,
     rope::KIND,
     coordinate_spring::TORSIONAL,
     friction::AXIAL,

@@ -37,6 +37,7 @@ pub mod rolling_contact;
 pub mod rope;
 pub mod shape;
 pub mod stop;
+pub mod tyre;
 
 pub use contribution::Contribution;
 pub use initial_model::InitialModel;

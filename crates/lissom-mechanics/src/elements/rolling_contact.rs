@@ -190,26 +190,7 @@ fn build(
     attached: Attached,
     parameters: &Parameters,
 ) -> Result<Contribution, ParameterError> {
-    let (nodes, points) = attached.two_nodes()?;
-    let normal = parameters.vector("normal")?;
-    let axes = axes_of(&normal).ok_or_else(|| ParameterError::new("normal", "has no direction"))?;
-    let frames = [0, 1].map(|side| {
-        let node = model.frame(nodes[side]);
-        let place = Motion::new(axes, node.transform_point(&points[side]));
-        CarriedFrame { node: nodes[side], offset: place.relative_to(&node) }
-    });
-    let [plane, centre] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
-    let height = axes.apply_inverse(&(centre - plane)).z;
-    if height.abs() <= 0.0 {
-        return Err(ParameterError::new("at_tip", "is in the plane: it must be the centre of the wheel"));
-    }
-    let axis = axes.apply_inverse(&parameters.vector("wheel_axis")?);
-    let axis =
-        axis.try_normalize(0.0).ok_or_else(|| ParameterError::new("wheel_axis", "has no direction"))?;
-    if axis.z.abs() > 1.0 - 1e-6 {
-        let problem = "is perpendicular to the plane: the wheel is flat on it and cannot roll";
-        return Err(ParameterError::new("wheel_axis", problem));
-    }
+    let (frames, axis, height) = on_plane(model, attached, parameters)?;
     let rim = parameters.number("rim")?;
     let radius = parameters.number_or("radius", (height.abs() - rim) / (1.0 - axis.z * axis.z).sqrt())?;
     if radius < 0.0 || radius + rim <= 0.0 {
@@ -235,6 +216,35 @@ fn build(
             switch_states: SwitchStates::default(),
         },
     ))
+}
+
+/// Frames in axes of the plane, the axis of the wheel in them, and the height of its centre.
+pub(super) fn on_plane(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<([CarriedFrame; 2], Vector3, f64), ParameterError> {
+    let (nodes, points) = attached.two_nodes()?;
+    let normal = parameters.vector("normal")?;
+    let axes = axes_of(&normal).ok_or_else(|| ParameterError::new("normal", "has no direction"))?;
+    let frames = [0, 1].map(|side| {
+        let node = model.frame(nodes[side]);
+        let place = Motion::new(axes, node.transform_point(&points[side]));
+        CarriedFrame { node: nodes[side], offset: place.relative_to(&node) }
+    });
+    let [plane, centre] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
+    let height = axes.apply_inverse(&(centre - plane)).z;
+    if height.abs() <= 0.0 {
+        return Err(ParameterError::new("at_tip", "is in the plane: it must be the centre of the wheel"));
+    }
+    let axis = axes.apply_inverse(&parameters.vector("wheel_axis")?);
+    let axis =
+        axis.try_normalize(0.0).ok_or_else(|| ParameterError::new("wheel_axis", "has no direction"))?;
+    if axis.z.abs() > 1.0 - 1e-6 {
+        let problem = "is perpendicular to the plane: the wheel is flat on it and cannot roll";
+        return Err(ParameterError::new("wheel_axis", problem));
+    }
+    Ok((frames, axis, height))
 }
 
 /// Axes with the third along a direction.

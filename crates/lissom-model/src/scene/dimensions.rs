@@ -23,6 +23,7 @@ pub(super) fn solids(
     let found = match component.kind.value.as_str() {
         "rolling" => disc(component, places, ends, 0.05),
         "rolling_contact" => disc(component, places, ends, 0.16),
+        "tyre" => disc(component, places, ends, 0.4),
         "wheel_on_rail" => wheel_and_rail(component, places, ends),
         "gear" => gears(component, document, places),
         "rope" => Some(drums(component, document, places)),
@@ -45,7 +46,7 @@ fn disc(
 ) -> Option<Vec<(Anchor, Vec<Solid>)>> {
     let [(base, normal), (wheel, axes)] = ends.first_chunk::<2>()?;
     let parameters = &component.parameters;
-    let rim = parameters.number("rim").ok()?;
+    let rim = parameters.number_or("rim", 0.0).ok()?;
     // By default the wheel touches the plane at the start.
     let up = match parameters.vector("normal") {
         Ok(normal) => normal.normalize(),

@@ -128,7 +128,7 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
         "rope" => {
             Drawn::WithRod(|[b, t]| [vec![b.ring(0.5, 0.2, 0.0, Dark)], vec![t.ring(0.5, 0.2, 0.0, Dark)]])
         }
-        "rolling_contact" => Solids(|[_, t]| {
+        "rolling_contact" | "tyre" => Solids(|[_, t]| {
             [Vec::new(), vec![t.ring(1.5, 0.4, 0.0, Spring), t.cylinder(0, 0.35, 0.7, Light)]]
         }),
         "bushing" => {

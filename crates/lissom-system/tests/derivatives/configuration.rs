@@ -118,9 +118,7 @@ const LEFT_OUT: [&str; 24] = [
 /// A value for every parameter of a kind.
 pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
     let mut result = Parameters::new();
-    for parameter in
-        parameters.iter().filter(|own| !LEFT_OUT.contains(&own.name) || own.name == "radius" && own.required)
-    {
+    for parameter in parameters.iter().filter(|own| !LEFT_OUT.contains(&own.name) || own.required) {
         let value = match parameter.holds {
             ParameterType::Positive if parameter.name == "exponent" => Value::Number(1.7),
             // Wider than the random positions, and longer than films may be.

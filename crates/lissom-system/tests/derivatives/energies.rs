@@ -20,13 +20,14 @@ use crate::derivatives::two_bodies;
 const STORES_NOTHING: [&str; 2] = ["axial_latch", "torsional_latch"];
 
 /// Those whose forces do work like those of a load.
-const WITHOUT_ENERGY: [&str; 2] = ["bearing", "journal_bearing"];
+const WITHOUT_ENERGY: [&str; 3] = ["bearing", "journal_bearing", "tyre"];
 
 /// Those whose forces are no single force over one elongation.
 const WITHOUT_MOTION: [&str; 4] = ["bearing", "bushing", "coordinate_dynamics", "journal_bearing"];
 
 /// Those that exert a force and a moment on one tip.
-const BETWEEN_FRAMES: [&str; 5] = ["bearing", "bushing", "journal_bearing", "point", "rolling_contact"];
+const BETWEEN_FRAMES: [&str; 6] =
+    ["bearing", "bushing", "journal_bearing", "point", "rolling_contact", "tyre"];
 
 /// A spring of a kind alone between two bodies, and which element it is. Laws that may depend on the rate, and so have no energy, are
 /// given where `is_damped`.
@@ -49,7 +50,7 @@ fn with_spring(
         let symmetric = DMatrix::from_row_slice(2, 2, &[2.0, -0.7, -0.7, 1.1]);
         parameters.insert("stiffness", Value::SquareMatrix(symmetric));
     }
-    if kind.name == "rolling_contact" {
+    if ["rolling_contact", "tyre"].contains(&kind.name) {
         // So that it is pressed.
         parameters.insert("radius", Value::Number(6.0));
     }
@@ -104,7 +105,9 @@ fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
 /// of the positions that it acts on.
 #[test]
 fn springs_report_the_motion_that_their_forces_work_on() {
-    for (seed, kind) in SPRINGS.iter().chain([&OVER_SHEAVES]).enumerate() {
+    // A tyre reports its deflection, and its tread works on the slip, too.
+    let with_motion = SPRINGS.iter().chain([&OVER_SHEAVES]).filter(|kind| kind.name != "tyre");
+    for (seed, kind) in with_motion.enumerate() {
         let mut random = Random::new(seed as u64 + 90);
         let (system, state, element) = with_spring(kind, true, &mut random);
         let mut here = Configuration::random(&system, &state, 0.3, &mut random);

@@ -151,7 +151,14 @@ fn springs_and_loads() {
             builder.add_held("input", if flag { 1.0 } else { 0.0 });
             // So that the first of all coordinates is not what it acts on.
             ports::two_coordinates(&mut builder);
-            let parameters = sample_parameters(kind.parameters, flag, &mut random);
+            let mut parameters = sample_parameters(kind.parameters, flag, &mut random);
+            if kind.name == "tyre" {
+                // So that it is pressed, and adheres or slides.
+                parameters.insert("radius", Value::Number(6.0));
+                parameters.insert("friction_coefficient", Value::Number(if flag { 50.0 } else { 0.01 }));
+                // Its law is steep for a wheel of this size.
+                parameters.insert("rolling_resistance", Value::Number(0.01));
+            }
             let attached = ports::attached(&mut builder, kind, nodes, &mut random);
             builder.add_of_kind(kind, attached, &parameters).expect("valid");
             let (system, state) = builder.build(0.0).expect("valid");

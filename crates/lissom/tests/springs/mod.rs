@@ -5,3 +5,4 @@ mod forces_on_tips;
 mod ropes;
 mod sheaves;
 mod stops_and_bushings;
+mod tyres;

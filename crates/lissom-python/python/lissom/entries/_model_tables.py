@@ -69,6 +69,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "axial": springs.Axial,
         "point": springs.Point,
         "rolling_contact": springs.RollingContact,
+        "tyre": springs.Tyre,
         "rope": springs.Rope,
         "torsional": springs.Torsional,
         "axial_friction": springs.AxialFriction,

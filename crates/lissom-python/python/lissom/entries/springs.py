@@ -141,6 +141,57 @@ class RollingContact(Spring):
 
 
 @dataclass(kw_only=True, slots=True)
+class Tyre(Spring):
+    """A tyre on a plane road: brush model with combined slip, relaxation, camber, trail and standstill without creep.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
+        normal: Normal of the road at the start, which is fixed in the base, global axes; `at_base` is a point of the road; a direction.
+        wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre. The tip is the part that rotates; a direction.
+        radius: Free radius; default: the one with which it touches the road at the start [m]; a number > 0, or nothing.
+        stiffness: Normal force per deflection [N/m]; a number > 0.
+        damping: Normal force per deflection rate; default 0 [N s/m]; a number ≥ 0, or nothing.
+        friction_coefficient: Coefficient of friction; that of dry asphalt is the default; default 0.9; a number > 0, or nothing.
+        slip_stiffness: Longitudinal force per slip and normal force, at small slip; a number > 0.
+        cornering_stiffness: Lateral force per slip angle and normal force, at small angles; a number > 0.
+        camber_stiffness: Lateral force per camber angle and normal force, towards the side to which the wheel leans; default 0; a number ≥ 0, or nothing.
+        pneumatic_trail: Distance of the lateral force behind the centre of contact at small angles; default a tenth of the radius [m]; a number ≥ 0, or nothing.
+        relaxation_length: Distance over which a lateral force builds up; default the radius [m]; a number > 0, or nothing.
+        longitudinal_relaxation_length: The same for a longitudinal force; default half of the radius [m]; a number > 0, or nothing.
+        damping_time: Damping of the tread over its stiffness, which fades beyond 1 m/s; default 5e-3 [s]; a number ≥ 0, or nothing.
+        rolling_resistance: Resistance to rolling over the normal force; default 0; a number ≥ 0, or nothing.
+        load_sensitivity: Decrease of friction with the normal force: μ/(1 + this N); default 0 [1/N]; a number ≥ 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "tyre"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    normal: Vector | str
+    wheel_axis: Vector | str
+    radius: Number | None = None
+    stiffness: Number
+    damping: Number | None = None
+    friction_coefficient: Number | None = None
+    slip_stiffness: Number
+    cornering_stiffness: Number
+    camber_stiffness: Number | None = None
+    pneumatic_trail: Number | None = None
+    relaxation_length: Number | None = None
+    longitudinal_relaxation_length: Number | None = None
+    damping_time: Number | None = None
+    rolling_resistance: Number | None = None
+    load_sensitivity: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Rope(Spring):
     """Rope that slides over several points without friction: pulleys, and hoists by its free length.
 

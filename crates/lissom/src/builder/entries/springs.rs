@@ -41,6 +41,27 @@ entries! {
         rolling_rate: f64 = "rolling_rate", "Rate ω\\_s of the law tanh(ω/ω\\_s) of `rolling_friction`, below which the wheel creeps; default 0.01 \\[rad/s\\].";
     }
 
+    /// A tyre on a plane road: brush model with combined slip, relaxation, camber, trail and standstill without creep.
+    Tyre => SpringId, kind: "tyre" {
+        * base: Node = "base", "first node: \"ground\", \"body\", \"beam.end\" …";
+        * tip: Node = "tip", "second node";
+        * normal: [f64; 3] = "normal", "Normal of the road at the start, which is fixed in the base, global axes; `at_base` is a point of the road";
+        * wheel_axis: [f64; 3] = "wheel_axis", "Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre. The tip is the part that rotates";
+        * stiffness: f64 = "stiffness", "Normal force per deflection \\[N/m\\]";
+        * slip_stiffness: f64 = "slip_stiffness", "Longitudinal force per slip and normal force, at small slip";
+        * cornering_stiffness: f64 = "cornering_stiffness", "Lateral force per slip angle and normal force, at small angles";
+        radius: f64 = "radius", "Free radius; default: the one with which it touches the road at the start \\[m\\].";
+        damping: f64 = "damping", "Normal force per deflection rate; default 0 \\[N s/m\\].";
+        friction_coefficient: f64 = "friction_coefficient", "Coefficient of friction; that of dry asphalt is the default; default 0.9.";
+        camber_stiffness: f64 = "camber_stiffness", "Lateral force per camber angle and normal force, towards the side to which the wheel leans; default 0.";
+        pneumatic_trail: f64 = "pneumatic_trail", "Distance of the lateral force behind the centre of contact at small angles; default a tenth of the radius \\[m\\].";
+        relaxation_length: f64 = "relaxation_length", "Distance over which a lateral force builds up; default the radius \\[m\\].";
+        longitudinal_relaxation_length: f64 = "longitudinal_relaxation_length", "The same for a longitudinal force; default half of the radius \\[m\\].";
+        damping_time: f64 = "damping_time", "Damping of the tread over its stiffness, which fades beyond 1 m/s; default 5e-3 \\[s\\].";
+        rolling_resistance: f64 = "rolling_resistance", "Resistance to rolling over the normal force; default 0.";
+        load_sensitivity: f64 = "load_sensitivity", "Decrease of friction with the normal force: μ/(1 + this N); default 0 \\[1/N\\].";
+    }
+
     /// Rope that slides over several points without friction: pulleys, and hoists by its free length.
     Rope => SpringId, kind: "rope" {
         * along: Vec<(Node, PositionOrNode)> = "along", "points over which it passes, from one end to the other \\[m\\]";
@@ -189,7 +210,7 @@ keys! {
 }
 
 keys! {
-    [Point, RollingContact, Bushing, Bearing, JournalBearing]
+    [Point, RollingContact, Tyre, Bushing, Bearing, JournalBearing]
         at_base: [f64; 3] = "at_base", "Location on the base; default: the node's position \\[m\\].";
         at_tip: [f64; 3] = "at_tip", "Location on the tip; default: the node's position \\[m\\].";
 }
