@@ -162,8 +162,9 @@ mod tests {
         assert_ne!(mechanism(3, 5).text(), mechanism(4, 5).text());
     }
 
-    /// Kinds that the generator does not make: a wheel on a rail needs the other rail, and runs off where it is not led.
-    const NOT_MADE: [&str; 1] = ["wheel_on_rail"];
+    /// Kinds that the generator does not make: a wheel on a rail needs the other rail, and runs off where it is not led; a tyre is tested
+    /// against formulas alone.
+    const NOT_MADE: [&str; 2] = ["wheel_on_rail", "tyre"];
 
     #[test]
     fn mechanisms_have_all_kinds_that_are_meant() {

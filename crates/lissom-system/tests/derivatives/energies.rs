@@ -54,6 +54,12 @@ fn with_spring(
         // So that it is pressed.
         parameters.insert("radius", Value::Number(6.0));
     }
+    if kind.name == "tyre" {
+        // So that no difference contains the end of adhesion, or the damping at small velocities.
+        parameters.insert("friction_coefficient", Value::Number(50.0));
+        parameters.insert("pneumatic_trail", Value::Number(0.0));
+        parameters.insert("damping_time", Value::Number(1e-3));
+    }
     two_coordinates(&mut builder);
     let attached = attached(&mut builder, kind, nodes, random);
     let element = builder.add_of_kind(kind, attached, &parameters).expect("valid");

@@ -81,7 +81,7 @@ fn energy_never_increases_with_any_joint_spring_or_beam() {
     // What latches take at the instant is no matter of a step.
     let is_at_stages = |name: &str| {
         ["friction", "stop", "latch"].iter().any(|end| name.ends_with(end))
-            || ["bearing", "bushing", "journal_bearing", "rolling_contact"].contains(&name)
+            || ["bearing", "bushing", "journal_bearing", "rolling_contact", "tyre"].contains(&name)
     };
     let mut springs = lissom_core::elements::SPRINGS.iter().filter(|kind| !is_at_stages(kind.name));
     assert!(springs.all(|kind| named(kind.name)));
