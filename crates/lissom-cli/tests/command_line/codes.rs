@@ -33,7 +33,7 @@ const FAILURES: &[(&str, &str)] = &[
     ("explain nonexistent", "request"),
     ("new bar", "request"),
     ("modes bar.toml --about 99", "linearization-time"),
-    ("response bar.toml --input none --output bob --from 1 --to 2", "port-input"),
+    ("response bar.toml --by none --of bob --from 1 --to 2", "port-input"),
     ("gradient bar.toml --of none.x --by bodies.bob.mass", "gradient-column"),
     ("man nonexistent", "request"),
 ];

@@ -551,7 +551,7 @@ fn phases_that_drift_are_reported() {
 
 #[test]
 fn gradient_through_stop() {
-    let by = ["--of", "s.displacement", "--by", "parameters.k,parameters.v,parameters.m"];
+    let by = ["--output", "s.displacement", "--vary", "parameters.k,parameters.v,parameters.m"];
     let results = Results::of("gradient", "gradient-through-stop.toml", &by);
     results.assert_done();
     let derivatives = results.column_of("gradient.csv", "derivative");

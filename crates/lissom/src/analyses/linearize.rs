@@ -41,10 +41,16 @@ Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise abo
 )]
 pub struct LinearizeRequest {
     /// Inputs: entries of [inputs], loads or prescribed motions.
-    #[cfg_attr(feature = "clap", arg(long = "input", value_name = "NAME,…", value_delimiter = ','))]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long = "input", visible_alias = "by", value_name = "NAME,…", value_delimiter = ',')
+    )]
     pub inputs: Vec<String>,
     /// Outputs, or columns of them.
-    #[cfg_attr(feature = "clap", arg(long = "output", value_name = "NAME,…", value_delimiter = ','))]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long = "output", visible_alias = "of", value_name = "NAME,…", value_delimiter = ',')
+    )]
     pub outputs: Vec<String>,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
     #[cfg_attr(

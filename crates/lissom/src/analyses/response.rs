@@ -59,13 +59,25 @@ pub struct ResponseRequest {
     /// Inputs: entries of [inputs], loads or prescribed motions.
     #[cfg_attr(
         feature = "clap",
-        arg(long = "input", value_name = "NAME,…", value_delimiter = ',', required = true)
+        arg(
+            long = "input",
+            visible_alias = "by",
+            value_name = "NAME,…",
+            value_delimiter = ',',
+            required = true
+        )
     )]
     pub inputs: Vec<String>,
     /// Outputs, or columns of them.
     #[cfg_attr(
         feature = "clap",
-        arg(long = "output", value_name = "NAME,…", value_delimiter = ',', required = true)
+        arg(
+            long = "output",
+            visible_alias = "of",
+            value_name = "NAME,…",
+            value_delimiter = ',',
+            required = true
+        )
     )]
     pub outputs: Vec<String>,
     /// First frequency [Hz].

@@ -47,10 +47,13 @@ Exit code: 0 success; 2 wrong model or command line; 3 no solution.")
 )]
 pub struct GradientRequest {
     /// Output column, and a scalar derived from it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
-    #[cfg_attr(feature = "clap", arg(long, value_name = "OUTPUT[@TIME|max|rms]"))]
+    #[cfg_attr(feature = "clap", arg(long, visible_alias = "output", value_name = "OUTPUT[@TIME|max|rms]"))]
     pub of: String,
     /// Paths of numbers in the model file, such as `bodies.top.mass,springs.s.stiffness`.
-    #[cfg_attr(feature = "clap", arg(long, value_name = "PATH,…", value_delimiter = ',', required = true))]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, visible_alias = "vary", value_name = "PATH,…", value_delimiter = ',', required = true)
+    )]
     pub by: Vec<String>,
     /// Skip the run with perturbed numbers that verifies the derivatives.
     #[cfg_attr(feature = "clap", arg(long, display_order = 901))]
