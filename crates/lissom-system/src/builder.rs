@@ -459,8 +459,11 @@ impl Builder {
         if !feedback.is_empty() {
             batches.push(Arc::new(feedback.clone()));
         }
+        let has_sheaves =
+            batches.iter().any(|batch| batch.elements_with(|own| own.spring).any(|own| own.has_sheaves()));
         let system = System {
             layout,
+            has_sheaves,
             batches,
             joint_lanes: JointLanes {
                 batches: Batches::new(&self.constraints.joints),

@@ -98,6 +98,8 @@ pub struct System {
     pub beams: ExaminedBeams,
     /// Parts that touch without elements.
     pub contacts: Arc<ContactSet>,
+    /// Whether ropes pass over sheaves, which is checked in every step.
+    pub has_sheaves: bool,
 }
 
 /// Parts and joint coordinates with a given velocity at the start.

@@ -72,7 +72,9 @@ impl Judge<'_> {
     ) -> Result<(EnergyBalance, f64), StepError> {
         let violation = self.constraints(end)?;
         self.sliders(end)?;
-        ropes(self.system, &end.kinematics)?;
+        if self.system.has_sheaves {
+            ropes(self.system, &end.kinematics)?;
+        }
         if self.is_motion {
             positive_mass(self.system, &end.kinematics)?;
         }
@@ -237,7 +239,7 @@ fn overlaps(system: &System, at: &Kinematics) -> Result<(), StepError> {
 
 /// Fails if a rope under tension no longer lies on one of its sheaves.
 fn ropes(system: &System, at: &Kinematics) -> Result<(), StepError> {
-    for rope in system.elements_with(|own| own.reeved) {
+    for rope in system.elements_with(|own| own.spring) {
         let Some((index, how)) = rope.off_sheave(at) else { continue };
         let name = |node| system.layout().name_of_node(node).to_owned();
         let parts = rope.unknowns().nodes.iter().copied().filter(|&node| node != GROUND).map(name);

@@ -35,8 +35,9 @@ pub const MAX_STATES: usize = 6;
 /// Most functions of a load.
 pub const MAX_FUNCTIONS: usize = 80;
 
-/// Derivatives by displacement and rotation of the node, by its twist, by displacement and rotation of the other node, and by the states.
-type Row = SVector<f64, { 18 + MAX_STATES }>;
+/// Derivatives by displacement and rotation of the node, by its twist, by the states, and by displacement and rotation of another node
+/// if there is one.
+type Row<const N: usize> = SVector<f64, N>;
 
 /// An argument of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,8 +95,8 @@ pub struct LocalFunctions {
 pub struct LocalLoad {
     /// The node, and the other one if it is not the same.
     nodes: Vec<NodeId>,
-    /// Origin and direction in the axes of the last node.
-    other: [Vector3; 2],
+    /// Origin and direction in the axes of the last node, if positions are relative to it.
+    other: Option<[Vector3; 2]>,
     point: Vector3,
     /// Q; none if the axes are global.
     axes: Option<Rotation>,
@@ -134,7 +135,7 @@ struct Values {
 
 /// Rows of a vector whose derivatives by displacement and rotation of the node, or by its twist, are these matrices; their columns
 /// are from `first` on.
-fn rows_of(by: [Matrix3; 2], first: usize) -> [Row; 3] {
+fn rows_of<const N: usize>(by: [Matrix3; 2], first: usize) -> [Row<N>; 3] {
     std::array::from_fn(|k| {
         let mut row = Row::zeros();
         for (j, matrix) in by.iter().enumerate() {
@@ -159,7 +160,7 @@ impl LocalLoad {
     ) -> Self {
         Self {
             nodes: vec![frame.node],
-            other: [Vector3::zeros(); 2],
+            other: None,
             point: frame.offset.position,
             axes: (!is_global).then_some(frame.offset.rotation),
             global,
@@ -179,7 +180,7 @@ impl LocalLoad {
         if other.node != self.nodes[0] {
             self.nodes.push(other.node);
         }
-        self.other = [other.offset.position, direction];
+        self.other = Some([other.offset.position, direction]);
         self
     }
 
@@ -220,17 +221,21 @@ impl LocalLoad {
         let axes = self.axes.map_or_else(|| rotation.transpose(), |own| own.matrix());
         let turning = rotation_part(&motion.twist);
         let position = frame.position + rotation * self.point;
-        let [origin, direction] = self.other;
-        let other = at.nodes[self.nodes[self.nodes.len() - 1]].frame.relative_to(&self.global);
-        let other_axes = axes.tr_mul(&rotation.tr_mul(&other.rotation.matrix()));
+        let (relative_position, direction, other_axes) =
+            self.other.map_or_else(Default::default, |[origin, direction]| {
+                let other = at.nodes[self.nodes[self.nodes.len() - 1]].frame.relative_to(&self.global);
+                let axes_of_other = axes.tr_mul(&rotation.tr_mul(&other.rotation.matrix()));
+                let relative = axes.tr_mul(&rotation.tr_mul(&(position - other.transform_point(&origin))));
+                (relative, axes_of_other * direction, axes_of_other)
+            });
         Local {
             position,
             velocity: axes.tr_mul(&(translation_part(&motion.twist) + turning.cross(&self.point))),
             angular_velocity: axes.tr_mul(&turning),
             rotation,
             axes,
-            relative_position: axes.tr_mul(&rotation.tr_mul(&(position - other.transform_point(&origin)))),
-            direction: other_axes * direction,
+            relative_position,
+            direction,
             other_axes,
         }
     }
@@ -295,7 +300,7 @@ impl LocalLoad {
     }
 
     /// Rows of position, velocity and angular velocity.
-    fn motion_rows(&self, local: &Local) -> [[Row; 3]; 3] {
+    fn motion_rows<const N: usize>(&self, local: &Local) -> [[Row<N>; 3]; 3] {
         let arm = skew(&self.point);
         let (rotation, axes) = (&local.rotation, local.axes.transpose());
         let position = rows_of([*rotation, -rotation * arm], 0);
@@ -313,10 +318,11 @@ impl LocalLoad {
     }
 
     /// Rows of relative position and direction.
-    fn relative_rows(&self, local: &Local) -> [[Row; 3]; 2] {
-        let first = if self.nodes.len() == 1 { 0 } else { 12 };
+    fn relative_rows<const N: usize>(&self, local: &Local) -> [[Row<N>; 3]; 2] {
+        let Some(others) = self.other else { return [[Row::zeros(); 3]; 2] };
+        let first = if self.nodes.len() == 1 { 0 } else { 12 + MAX_STATES };
         let (axes, other) = (local.axes.transpose(), &local.other_axes);
-        let [origin, direction] = self.other.map(|vector| skew(&vector));
+        let [origin, direction] = others.map(|vector| skew(&vector));
         // δ(Sᵀ b) = Sᵀ b × δθ for the axes of the section, at a constant b in global axes.
         let turned = |vector: &Vector3| match self.axes {
             Some(_) => axes * skew(&(local.axes * vector)),
@@ -334,10 +340,15 @@ impl LocalLoad {
     }
 
     /// Rows of Sᵀ Rᵀ w - c.
-    fn flow_rows(&self, local: &Local, fluid: (&Vector3, &[Row; 3]), velocity: &[Row; 3]) -> [Row; 3] {
+    fn flow_rows<const N: usize>(
+        &self,
+        local: &Local,
+        fluid: (&Vector3, &[Row<N>; 3]),
+        velocity: &[Row<N>; 3],
+    ) -> [Row<N>; 3] {
         let (w, by) = fluid;
         let to_load = local.axes.transpose() * local.rotation.transpose();
-        let mut rows: [Row; 3] =
+        let mut rows: [Row<N>; 3] =
             std::array::from_fn(|k| (0..3).fold(-velocity[k], |row, j| row + to_load[(k, j)] * by[j]));
         if self.axes.is_some() {
             let turned = local.axes.transpose() * skew(&local.rotation.tr_mul(w));
@@ -347,12 +358,12 @@ impl LocalLoad {
         rows
     }
 
-    /// Values and rows of all functions.
-    fn rows(&self, at: &Kinematics) -> (Values, [Row; MAX_FUNCTIONS]) {
+    /// Values and rows of all functions, of which there are at most `F`.
+    fn rows<const N: usize, const F: usize>(&self, at: &Kinematics) -> (Values, [Row<N>; F]) {
         let local = self.local(at);
         let [position, velocity, turning] = self.motion_rows(&local);
         let [relative, direction] = self.relative_rows(&local);
-        let mut rows = [Row::zeros(); MAX_FUNCTIONS];
+        let mut rows = [Row::zeros(); F];
         let mut known = [0.0; MAX_FUNCTIONS];
         let values = self.evaluate(at, |index, arguments, sides| {
             let LocalFunction { function, arguments: sources, .. } = &self.functions.all[index];
@@ -376,7 +387,7 @@ impl LocalLoad {
                     }
                     LocalArgument::RelativePosition(k) => row += derivative * relative[k],
                     LocalArgument::Direction(k) => row += derivative * direction[k],
-                    LocalArgument::State(k) => row[18 + k] += derivative,
+                    LocalArgument::State(k) => row[12 + k] += derivative,
                     LocalArgument::Function(earlier) => row += derivative * rows[earlier],
                     LocalArgument::Held(_) | LocalArgument::Constant(_) => {}
                 }
@@ -408,38 +419,19 @@ impl LocalLoad {
         6 * self.nodes.len()
     }
 
-    fn factor(&self, at: &Kinematics) -> f64 {
-        self.weight * self.scale.value(at.time)
-    }
-}
-
-impl Element for LocalLoad {
-    fn unknowns(&self) -> Unknowns<'_> {
-        Unknowns { nodes: &self.nodes, coordinates: &self.states, multipliers: &[] }
-    }
-
-    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        let values = self.values(at);
-        let factor = self.factor(at);
-        self.add_wrench(&values, factor, out);
-        for (k, (&state, &rate)) in self.states.iter().zip(&self.functions.rates).enumerate() {
-            out[self.first_state() + k] += at.coordinates[state].rate - values.functions[rate];
-        }
-    }
-
-    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let (values, rows) = self.rows(at);
+    fn linearize_by<const N: usize, const F: usize>(&self, at: &Kinematics, out: &mut Tangents) {
+        let (values, rows) = self.rows::<N, F>(at);
         let factor = self.factor(at);
         let (size, axes, first) = (out.size(), &values.local.axes, self.first_state());
         let of = |index: Option<usize>, column: usize| index.map_or(0.0, |index| rows[index][column]);
         let mut add = |row: usize, column: usize, value: f64| match column {
             0..6 => out.stiffness[row * size + column] += value,
             6..12 => out.damping[row * size + column - 6] += value,
-            12..18 => out.stiffness[row * size + column - 6] += value,
-            _ => out.stiffness[row * size + first + column - 18] += value,
+            column if column < 12 + MAX_STATES => out.stiffness[row * size + first + column - 12] += value,
+            _ => out.stiffness[row * size + 6 + column - 12 - MAX_STATES] += value,
         };
-        let by_nodes = 0..6 + first;
-        for column in by_nodes.chain(18..18 + self.states.len()) {
+        let by_other = if self.nodes.len() == 1 { 0..0 } else { 12 + MAX_STATES..18 + MAX_STATES };
+        for column in (0..12 + self.states.len()).chain(by_other) {
             let by =
                 [0, 3].map(|first| Vector3::from_fn(|k, _| of(self.functions.wrench[first + k], column)));
             let [force, moment] = self.on_node(&by, axes);
@@ -462,6 +454,34 @@ impl Element for LocalLoad {
         }
         for k in 0..self.states.len() {
             out.damping[(first + k) * size + first + k] += 1.0;
+        }
+    }
+
+    fn factor(&self, at: &Kinematics) -> f64 {
+        self.weight * self.scale.value(at.time)
+    }
+}
+
+impl Element for LocalLoad {
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.nodes, coordinates: &self.states, multipliers: &[] }
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let values = self.values(at);
+        let factor = self.factor(at);
+        self.add_wrench(&values, factor, out);
+        for (k, (&state, &rate)) in self.states.iter().zip(&self.functions.rates).enumerate() {
+            out[self.first_state() + k] += at.coordinates[state].rate - values.functions[rate];
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        // Most loads have few functions and one node, and the time is that of their rows.
+        if self.nodes.len() == 1 && self.functions.all.len() <= 24 {
+            self.linearize_by::<{ 12 + MAX_STATES }, 24>(at, out);
+        } else {
+            self.linearize_by::<{ 18 + MAX_STATES }, MAX_FUNCTIONS>(at, out);
         }
     }
 

@@ -14,7 +14,7 @@ use lissom_motion::Vector3;
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response};
 use super::initial_model::InitialModel;
-use super::{Capabilities, Element, Energy, ForceLaws, Load, Reeved, Spring, Tangents, Unknowns};
+use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Switch};
@@ -197,18 +197,7 @@ impl<M: Measure, L: MeasuredLaw> Element for OverMeasure<M, L> {
     fn capabilities(&self) -> Capabilities<'_> {
         let load: Option<&dyn Load> = if L::SUPPLIES { Some(self) } else { None };
         let frames = self.measure.frames();
-        let reeved: Option<&dyn Reeved> = if M::HAS_SHEAVES { Some(self) } else { None };
-        Capabilities { load, frames, spring: Some(self), laws: Some(self), reeved, ..Capabilities::default() }
-    }
-}
-
-impl<M: Measure, L: MeasuredLaw> Reeved for OverMeasure<M, L> {
-    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)> {
-        let reading = self.measure.read(at);
-        if self.response(&reading, at).force == 0.0 {
-            return None;
-        }
-        self.measure.off_sheave(at)
+        Capabilities { load, frames, spring: Some(self), laws: Some(self), ..Capabilities::default() }
     }
 }
 
@@ -223,6 +212,18 @@ impl<M: Measure, L: MeasuredLaw> Load for OverMeasure<M, L> {
 }
 
 impl<M: Measure, L: MeasuredLaw> Spring for OverMeasure<M, L> {
+    fn has_sheaves(&self) -> bool {
+        M::HAS_SHEAVES
+    }
+
+    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)> {
+        let reading = self.measure.read(at);
+        if self.response(&reading, at).force == 0.0 {
+            return None;
+        }
+        self.measure.off_sheave(at)
+    }
+
     fn dissipates(&self) -> bool {
         self.law.dissipates()
     }

@@ -37,8 +37,6 @@ pub struct Capabilities<'e> {
     pub strain: Option<&'e dyn StrainSlopes>,
     /// Deformations of an element with geometric stiffness.
     pub deformation: Option<&'e dyn Deformable>,
-    /// A rope over sheaves.
-    pub reeved: Option<&'e dyn Reeved>,
     /// Inertia besides that of bodies, which is stored in the system.
     pub inertia: Option<&'e dyn OwnInertia>,
     /// Whether it is the inertia of a body, whose forces depend on positions only through the axes in which they are
@@ -120,6 +118,17 @@ pub trait Spring: Element {
         None
     }
 
+    /// Whether it is a rope over sheaves or drums with a radius. Default: it is none.
+    fn has_sheaves(&self) -> bool {
+        false
+    }
+
+    /// Position of the first point, if it carries a force, at which a rope no longer lies on its sheave or drum, and how. Default: it has no
+    /// sheaves.
+    fn off_sheave(&self, _at: &Kinematics) -> Option<(usize, String)> {
+        None
+    }
+
     /// Two nodes and the vector between the ends, if the force would have a direction at zero length, where that reverses.
     /// Default: it has none.
     fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
@@ -131,12 +140,6 @@ pub trait Spring: Element {
     fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {
         None
     }
-}
-
-/// Ropes over sheaves with a radius.
-pub trait Reeved: Element {
-    /// Position of the first point, if it carries a force, at which the rope no longer lies on its sheave or drum, and how.
-    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)>;
 }
 
 /// Elements whose forces follow from functions of a few numbers, with kinks or jumps at which steps end. They have
