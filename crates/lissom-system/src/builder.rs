@@ -459,8 +459,9 @@ impl Builder {
         if !feedback.is_empty() {
             batches.push(Arc::new(feedback.clone()));
         }
-        let has_sheaves =
-            batches.iter().any(|batch| batch.elements_with(|own| own.spring).any(|own| own.has_sheaves()));
+        let has_sheaves = batches.iter().any(|batch| {
+            batch.elements_with(|own| own.spring).any(lissom_mechanics::elements::Spring::has_sheaves)
+        });
         let system = System {
             layout,
             has_sheaves,
