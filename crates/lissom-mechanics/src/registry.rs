@@ -200,6 +200,10 @@ pub enum ParameterType {
     Choice(&'static [&'static str]),
     /// Some of the listed words, each at most once.
     Choices(&'static [&'static str]),
+    /// Numbers by name, from a tyre property file.
+    Coefficients,
+    /// A height over x and y: an expression of both, a table over x, a grid, a random profile, or a list of these, which are added.
+    HeightField,
 }
 
 impl ParameterType {
@@ -225,7 +229,9 @@ impl ParameterType {
             | Self::Numbers
             | Self::SquareMatrix
             | Self::Choice(_)
-            | Self::Choices(_) => false,
+            | Self::Choices(_)
+            | Self::Coefficients
+            | Self::HeightField => false,
         }
     }
 }
@@ -420,6 +426,8 @@ pub enum Value {
     SquareMatrix(DMatrix<f64>),
     /// An input, by its index among the held values.
     Input(DiscreteValueId),
+    /// Numbers by name.
+    Coefficients(BTreeMap<String, f64>),
 }
 
 /// The parameters given for one component, by name. What is not given has the default of its declaration.
@@ -628,6 +636,17 @@ impl Parameters {
         match self.values.get(name) {
             Some(Value::Numbers(values)) => Ok(values),
             other => Err(wrong(name, "a list of numbers", other)),
+        }
+    }
+
+    /// Required numbers by name.
+    ///
+    /// # Errors
+    /// If they are missing or not numbers by name.
+    pub fn coefficients(&self, name: &str) -> Result<&BTreeMap<String, f64>, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Coefficients(values)) => Ok(values),
+            other => Err(wrong(name, "numbers by name", other)),
         }
     }
 

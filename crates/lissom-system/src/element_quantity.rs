@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use lissom_mechanics::elements::Element;
+use lissom_mechanics::elements::{Element, Spring};
 use lissom_mechanics::evaluation::batch::{AnyBatch, ElementId};
 use lissom_mechanics::evaluation::work::{power, power_gradient};
 use lissom_mechanics::evaluation::wrench::{WrenchAxes, wrench, wrench_gradient};
@@ -16,6 +16,8 @@ use super::System;
 pub enum Of {
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
+    /// Slip and forces of a tyre.
+    Slip,
     /// Power that the element supplies to the rest of the model [W].
     Power,
     /// Force [N] and moment [N m] on the tip of an element between two frames.
@@ -27,6 +29,7 @@ impl Of {
     pub(crate) fn is_of(self, element: &dyn Element) -> bool {
         match self {
             Self::Spring => element.capabilities().spring.is_some(),
+            Self::Slip => element.capabilities().spring.is_some_and(Spring::has_slip),
             Self::Power => true,
             Self::Wrench(_) => element.capabilities().frames.is_some(),
         }
@@ -81,7 +84,7 @@ impl Measurement for ElementQuantity {
         match self.of {
             Of::Spring => 3,
             Of::Power => 1,
-            Of::Wrench(_) => 6,
+            Of::Slip | Of::Wrench(_) => 6,
         }
     }
 
@@ -92,6 +95,11 @@ impl Measurement for ElementQuantity {
             Of::Spring => {
                 if let Some(spring) = element.capabilities().spring {
                     values[..3].copy_from_slice(&spring.spring_motion(at));
+                }
+            }
+            Of::Slip => {
+                if let Some(spring) = element.capabilities().spring {
+                    values = spring.slip(at);
                 }
             }
             Of::Power => values[0] = power(element, at),
@@ -107,6 +115,7 @@ impl Measurement for ElementQuantity {
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
         let gradient = self.element().and_then(|element| match self.of {
             Of::Spring => Some(element.capabilities().spring?.spring_gradients(at)[component]),
+            Of::Slip => Some(element.capabilities().spring?.slip_gradients(at)[component]),
             Of::Power => power_gradient(element, at),
             Of::Wrench(axes) => {
                 let frames = element.capabilities().frames?;

@@ -25,6 +25,7 @@ mod snapshot;
 mod study;
 mod sweep;
 mod terminal;
+mod tyre;
 mod view;
 
 use std::process::ExitCode;
@@ -74,6 +75,7 @@ commands! {
         Kinds(kinds::Kinds) "List kinds, keys, functions and schemes of model files",
         Parts(parts::Parts) "List ready-made parts, print one, or write it to a file",
         Schema(schema::Schema) "Print the JSON schema of model files, for completion in editors",
+        Tyre(tyre::Tyre) "Show the forces of a tyre property file",
         Import(import::Import) "Convert a robot description (URDF, MJCF, SDF) to a model file",
     }
     "Simulation" {

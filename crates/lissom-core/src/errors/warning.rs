@@ -560,6 +560,26 @@ diagnostics! {
             advice: "Split the shape into several solids without hollows, such as planes, boxes or convex outlines (`shape` may be a list). Where the \
                 points of an outline approximate a curve, use `smooth = true`.",
         }
+        /// A tyre carries more than the loads for which it has data.
+        TyreBeyondData {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of its wheel.
+            part: String,
+            /// Normal force [N].
+            load: f64,
+            /// Largest load of the data [N].
+            limit: f64,
+        } => "tyre-beyond-data" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at t = {time} s the tyre of `{part}` carries {load:.0} N, more than the {limit:.0} N for which its file has data (FZMAX): its forces are \
+                    extrapolated"),
+            remedy: "reduce the load, or use a file of a larger tyre",
+            meaning: "A tyre property file states the loads of its measurements. Beyond them the coefficients are those of its largest load, and the \
+                forces are proportional to the load: a real tyre has less friction.",
+            advice: "Look for the cause of the load, such as a stiff stop or an impact, or use a file of a larger tyre.",
+        }
         /// A wheel that rolls is pulled by its plane.
         WheelLifts {
             /// When it was first detected [s].

@@ -25,6 +25,7 @@ mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;
 mod table_ranges;
+mod tyre_loads;
 mod unresolved_forces;
 mod zero_lengths;
 
@@ -63,6 +64,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
     Kind { name: "penetration", begin: penetration::begin },
+    Kind { name: "tyre-loads", begin: tyre_loads::begin },
     Kind { name: "hollows", begin: hollows::begin },
     Kind { name: "beam-strains", begin: beam_strains::begin },
     Kind { name: "section-forces", begin: section_forces::begin },

@@ -226,7 +226,8 @@ pub(super) fn on_plane(
 ) -> Result<([CarriedFrame; 2], Vector3, f64), ParameterError> {
     let (nodes, points) = attached.two_nodes()?;
     let normal = parameters.vector("normal")?;
-    let axes = axes_of(&normal).ok_or_else(|| ParameterError::new("normal", "has no direction"))?;
+    let ahead = parameters.vector("road_direction").ok();
+    let axes = axes_of(&normal, ahead).ok_or_else(|| ParameterError::new("normal", "has no direction"))?;
     let frames = [0, 1].map(|side| {
         let node = model.frame(nodes[side]);
         let place = Motion::new(axes, node.transform_point(&points[side]));
@@ -247,12 +248,14 @@ pub(super) fn on_plane(
     Ok((frames, axis, height))
 }
 
-/// Axes with the third along a direction.
-fn axes_of(normal: &Vector3) -> Option<Rotation> {
+/// Axes with the third along a direction, and the first as close to another one as possible, if it has a part across it.
+fn axes_of(normal: &Vector3, ahead: Option<Vector3>) -> Option<Rotation> {
     let third = normal.try_normalize(0.0)?;
-    let mut across = Vector3::zeros();
-    across[third.iamin()] = 1.0;
-    let first = (across - third * third.dot(&across)).normalize();
+    let across = |direction: Vector3| direction - third * third.dot(&direction);
+    let mut other = Vector3::zeros();
+    other[third.iamin()] = 1.0;
+    let first = ahead.and_then(|ahead| across(ahead.normalize()).try_normalize(1e-6));
+    let first = first.unwrap_or_else(|| across(other).normalize());
     Rotation::from_columns(&first, &third.cross(&first), &third)
 }
 

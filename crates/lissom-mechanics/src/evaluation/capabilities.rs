@@ -118,6 +118,26 @@ pub trait Spring: Element {
         None
     }
 
+    /// Whether it is a tyre. Default: it is none.
+    fn has_slip(&self) -> bool {
+        false
+    }
+
+    /// Slip, slip angle [rad], longitudinal, lateral and normal force [N] and aligning moment [N m] of a tyre. Default: it is none.
+    fn slip(&self, _at: &Kinematics) -> [f64; 6] {
+        [f64::NAN; 6]
+    }
+
+    /// Largest normal force for which a tyre has data [N]. Default: there are none.
+    fn largest_load(&self) -> Option<f64> {
+        None
+    }
+
+    /// Derivatives of these numbers with respect to its local unknowns. Default: it is no tyre.
+    fn slip_gradients(&self, _at: &Kinematics) -> [Gradient; 6] {
+        [Gradient::zero(); 6]
+    }
+
     /// Whether it is a rope over sheaves or drums with a radius. Default: it is none.
     fn has_sheaves(&self) -> bool {
         false

@@ -10,7 +10,7 @@ mod enclosure;
 mod error;
 mod formula;
 mod jet;
-mod noise;
+pub(crate) mod noise;
 mod number;
 mod over_time;
 mod program;

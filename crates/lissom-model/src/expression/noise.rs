@@ -35,7 +35,7 @@ fn unit(seed: f64, counter: f64, stream: u64) -> f64 {
 }
 
 /// Uniform between 0 and 1; not a number unless both arguments are finite.
-pub(super) fn uniform(seed: f64, counter: f64) -> f64 {
+pub(crate) fn uniform(seed: f64, counter: f64) -> f64 {
     if seed.is_finite() && counter.is_finite() { unit(seed, counter, 0) } else { f64::NAN }
 }
 

@@ -28,6 +28,14 @@ pub(crate) enum DataError {
         /// Line of the heading.
         line: usize,
     },
+    /// A column of a grid is named by no number.
+    #[error("line {line}: `{cell}` is no value of y")]
+    NoValue {
+        /// Line of the heading.
+        line: usize,
+        /// The name.
+        cell: String,
+    },
     /// There are fewer than two columns.
     #[error("line {0}: two columns are needed")]
     OneColumn(usize),
@@ -54,6 +62,40 @@ pub(crate) struct Rows {
 
 /// The two columns called `names`, or the first two.
 pub(crate) fn two_columns(text: &str, names: Option<[&str; 2]>) -> Result<Rows, DataError> {
+    let columns = columns(text, |heading, line| match names {
+        Some(names) => Ok(vec![column(heading, names[0], line)?, column(heading, names[1], line)?]),
+        None if heading.len() < 2 => Err(DataError::OneColumn(line)),
+        None => Ok(vec![0, 1]),
+    })?;
+    let values = columns.rows.iter().map(|row| (row[0], row[1])).collect();
+    Ok(Rows { values, lines: columns.lines })
+}
+
+/// Values of y, and rows of x and the values at these y, of a file whose heading is a name and the values of y.
+pub(crate) fn grid(text: &str) -> Result<(Vec<f64>, Vec<Vec<f64>>), DataError> {
+    let columns = columns(text, |heading, line| {
+        if heading.len() < 2 { Err(DataError::OneColumn(line)) } else { Ok((0..heading.len()).collect()) }
+    })?;
+    let across = columns.heading[1..].iter().map(|cell| {
+        let problem = || DataError::NoValue { line: columns.heading_line, cell: cell.clone() };
+        cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(problem)
+    });
+    Ok((across.collect::<Result<_, _>>()?, columns.rows))
+}
+
+/// Columns of a file.
+struct Columns {
+    heading: Vec<String>,
+    heading_line: usize,
+    rows: Vec<Vec<f64>>,
+    lines: Vec<usize>,
+}
+
+/// The columns that `choose` takes of the heading with its line.
+fn columns(
+    text: &str,
+    choose: impl Fn(&[String], usize) -> Result<Vec<usize>, DataError>,
+) -> Result<Columns, DataError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = (text.lines().enumerate())
         .map(|(index, line)| (index + 1, line.trim_end()))
@@ -68,25 +110,23 @@ pub(crate) fn two_columns(text: &str, names: Option<[&str; 2]>) -> Result<Rows, 
     if heading.iter().all(|cell| cell.parse::<f64>().is_ok()) {
         return Err(DataError::NoHeading(line));
     }
-    let columns = match names {
-        Some(names) => [column(&heading, names[0], line)?, column(&heading, names[1], line)?],
-        None if heading.len() < 2 => return Err(DataError::OneColumn(line)),
-        None => [0, 1],
-    };
-    let mut rows = Rows::default();
+    let chosen = choose(&heading, line)?;
+    let mut columns = Columns { heading, heading_line: line, rows: Vec::new(), lines: Vec::new() };
     for (line, text) in lines {
         let row = cells(text);
-        let number =
-            |column: usize| {
-                let cell = row.get(column).map_or("", String::as_str);
-                cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-                    DataError::NotANumber { line, cell: cell.to_owned(), column: heading[column].clone() }
-                })
-            };
-        rows.values.push((number(columns[0])?, number(columns[1])?));
-        rows.lines.push(line);
+        let number = |column: usize| {
+            let cell = row.get(column).map_or("", String::as_str);
+            cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| DataError::NotANumber {
+                line,
+                cell: cell.to_owned(),
+                column: columns.heading[column].clone(),
+            })
+        };
+        let numbers = chosen.iter().map(|column| number(*column)).collect::<Result<_, _>>()?;
+        columns.rows.push(numbers);
+        columns.lines.push(line);
     }
-    Ok(rows)
+    Ok(columns)
 }
 
 fn column(heading: &[String], name: &str, line: usize) -> Result<usize, DataError> {

@@ -10,6 +10,7 @@ pub(crate) mod matrix_market;
 mod npz;
 pub(crate) mod polar_file;
 pub mod ready_made;
+pub mod tyre_file;
 pub(crate) mod wind_box;
 
 use lissom_mechanics::diagnostics::Diagnose;

@@ -249,6 +249,8 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Numbers => Shape::Numbers,
         ParameterType::SquareMatrix => Shape::SquareMatrix,
         ParameterType::Input => Shape::Name("inputs"),
+        ParameterType::Coefficients => Shape::Coefficients,
+        ParameterType::HeightField => Shape::HeightField,
     };
     let Parameter { name, required, unit, summary, default, .. } = *parameter;
     Key { name, holds, required, unit, summary, default }

@@ -144,6 +144,10 @@ pub(crate) enum Shape {
     SquareMatrix,
     /// A list of joints, or of their coordinates, such as `arm.angle`.
     Coordinates,
+    /// A tyre property file, or a table that names it and has other values of some of its coefficients.
+    Coefficients,
+    /// A height over x and y.
+    HeightField,
     /// A table that is read entry by entry.
     Table,
 }
@@ -430,6 +434,17 @@ impl Shape {
                 let words =
                     "a list of coordinates of joints, such as `\"arm.angle\"`, or of joints: all of theirs";
                 row(words, list_of(text(), 1), Fixed("Vec<JointId>"), "Names")
+            }
+            Self::Coefficients => row(
+                "a tyre property file, or `{ file = \"…\", NAME = number }`",
+                any_of(&[text(), json!({ "type": "object" })]),
+                Fixed("String"),
+                "str | Table",
+            ),
+            Self::HeightField => {
+                let words = "a number, an expression of `x` and `y`, `{ file = \"…\" }`, `{ grid = \"…\" }`, `{ class = \"C\" }`, or a list of these, which are added";
+                let schema = any_of(&[number(), text(), json!({ "type": ["object", "array"] })]);
+                row(words, schema, Fixed("Function"), "Function | list[Function]")
             }
             Self::Table => row("a table", json!({ "type": "object" }), Absent, "Table"),
         }

@@ -154,6 +154,8 @@ kinds! {
     Spring = outputs::spring::SPRING,
     /// Force and moment of a spring on its tip [N, N m].
     SpringForce = outputs::spring_force::SPRING_FORCE,
+    /// Slip and forces of a tyre [-, rad, N, N, N, N m].
+    Tyre = outputs::tyre::TYRE,
     /// Power that a spring, load, drive or friction puts into the model [W].
     Power = outputs::power::POWER,
     /// Work that a spring, load, drive or friction has put into the model since the start [J].

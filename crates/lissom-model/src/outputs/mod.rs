@@ -35,6 +35,7 @@ pub(crate) mod solid_stress;
 pub(crate) mod spring;
 mod spring_force;
 mod touched;
+mod tyre;
 pub(crate) mod work;
 
 use std::collections::BTreeMap;

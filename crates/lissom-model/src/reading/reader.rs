@@ -358,6 +358,12 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::Force(names) => self
                     .node(name)
                     .and_then(|node| self.context.force(node, &self.words(name), names).map(Held::Force)),
+                ParameterType::HeightField => self
+                    .node(name)
+                    .and_then(|node| self.context.height_field(node, &self.words(name)).map(Held::Force)),
+                ParameterType::Coefficients => self.node(name).and_then(|node| {
+                    self.context.coefficients(node, &self.words(name)).map(Held::Coefficients)
+                }),
                 ParameterType::Matrix => self.node(name).and_then(|node| {
                     self.context
                         .semidefinite_matrix(node, &self.words(name))

@@ -58,12 +58,13 @@ impl TimeFunction for Wave {
 }
 
 #[derive(Debug)]
-struct Waves;
+struct Waves(f64);
 
 impl ForceFunction for Waves {
     fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
-        let (a, b) = (1.1 * first + 0.3, 0.7 * second + 0.2);
-        [a.sin() * b.cos(), 1.1 * a.cos() * b.cos(), -0.7 * a.sin() * b.sin()]
+        let [by_first, by_second] = [1.1 * self.0, 0.7 * self.0];
+        let (a, b) = (by_first * first + 0.3, by_second * second + 0.2);
+        [a.sin() * b.cos(), by_first * a.cos() * b.cos(), -by_second * a.sin() * b.sin()]
     }
     fn depends_on_second(&self) -> bool {
         true
@@ -136,7 +137,11 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Function | ParameterType::Size => {
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })
             }
-            ParameterType::Force(_) => Value::Force(Arc::new(Waves)),
+            ParameterType::Force(_) => Value::Force(Arc::new(Waves(1.0))),
+            // Long waves, so that differences are exact enough.
+            ParameterType::HeightField => Value::Force(Arc::new(Waves(0.2))),
+            // They replace other parameters; a test of their own gives them.
+            ParameterType::Coefficients => continue,
             // Differences do not see kinks; tests of their own do. Stops are touched.
             ParameterType::Range if parameter.name == "range" => Value::Range([-3.0, -2.0]),
             ParameterType::Matrix => {

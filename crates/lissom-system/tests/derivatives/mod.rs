@@ -22,6 +22,7 @@ mod superelement;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_flexible::beam::{Beam, SectionLaw};
+use lissom_mechanics::elements::tyre::magic_formula::COEFFICIENTS;
 use lissom_mechanics::elements::{LOADS, SPRINGS};
 use lissom_mechanics::joints::constraint::violation_rates;
 use lissom_mechanics::joints::derivatives::IncrementTangent;
@@ -36,6 +37,7 @@ use lissom_system::{
     Blend, Builder, Linearization, Placement, Scratch, State, Sum, System, TangentAssembler,
 };
 use ports::two_bodies;
+use std::collections::BTreeMap;
 
 /// Compares all blocks of the linearisation with differences of the residual.
 fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Random) {
@@ -145,7 +147,9 @@ fn check_sum(
 fn springs_and_loads() {
     for (seed, kind) in SPRINGS.iter().chain(LOADS).chain([&ports::OVER_SHEAVES]).enumerate() {
         for flag in [false, true] {
-            let mut random = Random::new(seed as u64 + 3);
+            // A tyre rolls at a velocity at which differences are exact enough: with a small one its relaxation has a kink.
+            let start = if kind.name == "tyre" { 173 } else { seed as u64 + 3 };
+            let mut random = Random::new(start);
             let (mut builder, nodes) = two_bodies(&mut random);
             // What latches are engaged by.
             builder.add_held("input", if flag { 1.0 } else { 0.0 });
@@ -164,6 +168,65 @@ fn springs_and_loads() {
             let (system, state) = builder.build(0.0).expect("valid");
             check(kind.name, &system, &state, 0.4, &mut random);
         }
+    }
+}
+
+#[test]
+fn tyres_with_the_magic_formula() {
+    let kind = SPRINGS.iter().find(|kind| kind.name == "tyre").expect("a kind");
+    // With coefficients of combined slip, and with the ellipse.
+    for flag in [false, true] {
+        let mut random = Random::new(170);
+        let (mut builder, nodes) = two_bodies(&mut random);
+        ports::two_coordinates(&mut builder);
+        let mut coefficients: BTreeMap<String, f64> = COEFFICIENTS
+            .iter()
+            .map(|name| {
+                ((*name).to_owned(), f64::from(u8::from(name.starts_with('L'))) + 0.1 * random.number())
+            })
+            .collect();
+        for (name, value) in [
+            ("UNLOADED_RADIUS", 9.0),
+            ("FNOMIN", 10.0),
+            ("VERTICAL_STIFFNESS", 2.0),
+            ("VERTICAL_DAMPING", 0.1),
+            ("QFZ1", if flag { 1.2 } else { 0.0 }),
+            ("QFZ2", 0.3),
+            ("LONGVL", 3.0),
+            ("FZMIN", 1e-3),
+            ("FZMAX", 1e3),
+            ("KPUMIN", -1e3),
+            ("KPUMAX", 1e3),
+            ("PCX1", 1.5),
+            ("PDX1", 1.0),
+            ("PKX1", 2.0),
+            ("PCY1", 1.3),
+            ("PDY1", 0.9),
+            ("PKY1", -2.0),
+            ("PKY2", 2.0),
+            ("RBX1", if flag { 1.2 } else { 0.0 }),
+            ("RBY1", 0.8),
+            ("QCZ1", 1.1),
+            ("BREFF", 1.0),
+            ("DREFF", 0.2),
+            ("PTX1", 1.1),
+            ("PTY1", 0.7),
+            ("PTY2", 1.8),
+        ] {
+            coefficients.insert(name.to_owned(), value);
+        }
+        let parameters = sample_parameters(kind.parameters, flag, &mut random)
+            .without(
+                kind.parameters
+                    .iter()
+                    .map(|own| own.name)
+                    .filter(|name| !["normal", "wheel_axis", "road"].contains(name)),
+            )
+            .with("magic_formula", Value::Coefficients(coefficients));
+        let attached = ports::attached(&mut builder, kind, nodes, &mut random);
+        builder.add_of_kind(kind, attached, &parameters).expect("valid");
+        let (system, state) = builder.build(0.0).expect("valid");
+        check("tyre with the magic formula", &system, &state, 0.4, &mut random);
     }
 }
 

@@ -13,6 +13,7 @@ pub mod reduce;
 mod registry;
 pub mod response;
 pub mod study;
+pub mod tyre_curves;
 
 pub use interface::{Analysis, AnalysisError, AnalysisReport, Origin, request, summary};
 pub use registry::{ANALYSES, Outcome, Registered, ResultFiles};

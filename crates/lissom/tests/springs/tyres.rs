@@ -1,6 +1,8 @@
 //! Tyres: slip curves against the brush model, build-up, standstill, a vehicle in a turn.
 
 use lissom::Model;
+use lissom::core::elements::tyre::magic_formula::MagicFormula;
+use lissom::model::files::tyre_file::tyre_file;
 use lissom::model::output::Record;
 
 fn run(text: &str, set: &[(&str, f64)]) -> Record {
@@ -233,4 +235,169 @@ fn a_single_track_vehicle_turns_as_its_linear_model() {
     let gradient = 1000.0 / length * (rear / (12.0 * normal) - front / (16.0 * normal));
     let wanted = steer / (length + gradient * speed * speed);
     assert!((yaw / speed / wanted - 1.0).abs() < 2e-3, "{} for {wanted} at {speed}", yaw / speed);
+}
+
+/// Coefficients of a tyre, and their file.
+const FILE: &str = include_str!("../../../../examples/parts/passenger-car.tir");
+
+/// Slip, slip angle, camber and normal force with the forces, moments and relaxation lengths of the formulas as a program of its own evaluates them.
+#[test]
+fn the_magic_formula_is_that_of_an_independent_program() {
+    let file = tyre_file(FILE).expect("a tyre property file");
+    assert!(file.unused.is_empty(), "{:?}", file.unused);
+    let law = MagicFormula::new(&file.coefficients, false).expect("a tyre");
+    let mirrored = MagicFormula::new(&file.coefficients, true).expect("a tyre");
+    for (slip, load, wanted) in [
+        (
+            [0.0, 0.0, 0.0],
+            4000.0,
+            [-77.9937429, -80.1890748, 2.53300316, -13.4211256, -1.99620809, 0.6023, 0.565216981],
+        ),
+        (
+            [0.05, 0.0, 0.0],
+            4000.0,
+            [3562.11161, -12.7033682, 3.60265161, -15.7289524, 33.0802312, 0.6023, 0.565216981],
+        ),
+        (
+            [-0.1, 0.03, 0.02],
+            3000.0,
+            [-3434.07494, -1247.12113, -25.2861524, -8.47002757, -24.5317969, 0.456139958, 0.467959527],
+        ),
+        (
+            [0.0, 0.05, 0.0],
+            5000.0,
+            [-72.1211436, -2740.07993, -49.5328337, -16.781061, 85.0730105, 0.744426202, 0.62376887],
+        ),
+        (
+            [0.0, -0.08, -0.05],
+            6000.0,
+            [-65.7551209, 4379.44776, 176.39737, -20.1433273, -135.1398, 0.882012894, 0.638417213],
+        ),
+        (
+            [0.2, -0.1, 0.04],
+            2500.0,
+            [2488.74407, 1456.53091, -5.38374066, -9.40527334, 35.5548169, 0.381730988, 0.404301876],
+        ),
+        (
+            [-1.0, 0.2, 0.0],
+            4000.0,
+            [-2820.98474, -602.129323, -5.73974977, -11.6820693, -28.5856781, 0.6023, 0.565216981],
+        ),
+    ] {
+        let forces = law.forces(slip, load, 20.0);
+        let lengths = law.relaxation(load, slip[2].sin());
+        for (found, wanted) in forces.iter().chain(&lengths).zip(wanted) {
+            assert!((found - wanted).abs() < 2e-8 * (1.0 + wanted.abs()), "{slip:?}: {found} for {wanted}");
+        }
+        // On the other side of the vehicle.
+        let [along, across, overturning, resisting, aligning] =
+            mirrored.forces([slip[0], -slip[1], -slip[2]], load, 20.0);
+        assert_eq!([along, -across, -overturning, resisting, -aligning], forces);
+    }
+}
+
+/// Where a model is that names the file.
+const BESIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/model.toml");
+
+/// The rig with a tyre property file.
+fn of_file(set: &str) -> String {
+    let (before, after) = RIG.split_once("radius = 0.3\n").expect("data of a brush");
+    let (_, after) = after.split_once("longitudinal_relaxation_length = 0.2\n").expect("data of a brush");
+    format!("{before}magic_formula = {{ file = \"parts/passenger-car.tir\"{set} }}\n{after}[outputs.tyre]\nkind = \"tyre\"\nof = \"tyre\"\n").replace("0.3*cos(camber)", "0.317*cos(camber)")
+}
+
+/// In steady rolling the forces are those of the formulas at the recorded slip, and the slip angle is that of the axle.
+#[test]
+fn a_tyre_with_a_file_rolls_with_the_forces_of_its_coefficients() {
+    for (set, angle, camber) in [("", 0.05, 0.0), ("", -0.08, 0.03), (", LMUY = 0.5, RBX1 = 0", 0.1, 0.0)] {
+        let mut model = Model::from_text(BESIDE, &of_file(set));
+        for (path, value) in [("parameters.angle", angle), ("parameters.camber", camber)] {
+            model = model.with(path, value);
+        }
+        let mut session = model.session().unwrap_or_else(|error| panic!("{error}"));
+        let record = session.run().unwrap_or_else(|error| panic!("{error}")).into_record();
+        let mut coefficients = tyre_file(FILE).expect("a tyre property file").coefficients;
+        if !set.is_empty() {
+            coefficients.insert("LMUY".to_owned(), 0.5);
+            coefficients.insert("RBX1".to_owned(), 0.0);
+        }
+        let law = MagicFormula::new(&coefficients, false).expect("a tyre");
+        let [slip, alpha, pull, side, load, aligning] =
+            ["slip", "slip_angle", "longitudinal", "lateral", "normal", "aligning"]
+                .map(|name| last(&record, "tyre", name));
+        assert!((alpha - angle).abs() < 1e-6, "{alpha} for {angle}");
+        let rolling = 10.0 * angle.cos();
+        let [along, across, overturning, _, moment] = law.forces([slip, alpha, camber], load, rolling);
+        for (found, wanted) in [(pull, along), (side, across), (aligning, moment)] {
+            // Moments fade with the velocity, by 5e-4 here.
+            assert!(
+                (found - wanted).abs() < 1e-6 * load + 5e-4 * moment.abs(),
+                "{set} {angle}: {found} for {wanted}"
+            );
+        }
+        // About the centre of the wheel, in global axes.
+        let [m1, m2, m3] = ["m1", "m2", "m3"].map(|name| last(&record, "force", name));
+        let ahead = [angle.cos(), -angle.sin(), 0.0];
+        let roll = m1 * ahead[0] + m2 * ahead[1] + m3 * ahead[2];
+        // The arm from the centre of the wheel to the road.
+        let height = 0.317 * f64::cos(camber) - load / 2e5;
+        let wanted = overturning + across * height + load * height * camber.tan();
+        assert!((roll - wanted).abs() < 0.02 * load * height, "{roll} for {wanted}");
+    }
+}
+
+#[test]
+fn a_vehicle_that_stops_with_locked_wheels_swings_back_by_the_tread_alone() {
+    let page = include_str!("../../../../docs/tyres.md");
+    let model = page.split("```toml\n").find(|part| part.starts_with("lissom = 1")).expect("a model");
+    let record = run(model.split("```").next().expect("a model"), &[("analysis.end", 4.0)]);
+    let speed = record.column("car", "v1").expect("a column");
+    // The energy of the tread, μ N σ ε_s (3/4), as kinetic energy.
+    let energy: f64 = 0.8 * 320.0 * 9.81 * 0.15 * (3.0 * 0.8 / 20.0) * 0.75;
+    let bound = (2.0 * energy / 320.0).sqrt();
+    let least = speed.iter().copied().fold(0.0, f64::min);
+    assert!(least > -bound, "{least}, {bound}");
+    assert!(speed.last().expect("rows").abs() < 1e-3);
+}
+
+/// On a slope that is a road the plane of the tyre is the slope, also across it.
+#[test]
+fn a_road_that_is_plane_has_the_forces_of_a_plane() {
+    let plane = RIG.replace("normal = [0, 0, 1]", "normal = [\"-0.1\", \"-0.05\", 1]");
+    let road = RIG.replace("radius = 0.3\n", "radius = 0.3\nroad = \"0.1*x + 0.05*y\"\n");
+    let road = run(&road, &[("analysis.end", 0.1)]);
+    let plane = run(&plane, &[("analysis.end", 0.1)]);
+    for component in ["f1", "f2", "f3", "m1", "m2", "m3"] {
+        let [wanted, found] = [&plane, &road].map(|record| last(record, "force", component));
+        assert!((wanted - found).abs() < 1e-6 * 3000.0, "{component}: {found} for {wanted}");
+    }
+}
+
+/// A free wheel on a wavy road: over waves that are longer than the contact the axle of a light wheel follows the mean height under it.
+#[test]
+fn a_wave_is_averaged_over_the_contact() {
+    for wave in [4.0_f64, 0.5] {
+        let text = RIG.replace(
+            "radius = 0.3\n",
+            &format!("radius = 0.3\ncontact_length = 0.2\nroad = \"0.002*cos(2*pi*x/{wave})\"\n"),
+        );
+        let record =
+            run(&text, &[("parameters.speed", 0.01), ("analysis.end", 0.05), ("analysis.step", 1e-2)]);
+        let load = last(&record, "force", "f3");
+        let mean: f64 = [-0.1, -0.05, 0.0, 0.05, 0.1]
+            .iter()
+            .map(|l| (std::f64::consts::TAU * l / wave).cos() / 5.0)
+            .sum();
+        assert!((load - (3000.0 + 2e5 * 0.002 * mean)).abs() < 0.05, "{wave}: {load}");
+    }
+}
+
+#[test]
+fn a_road_may_be_a_sum_of_expressions_and_tables() {
+    let height = |road: &str| {
+        let text = RIG.replace("radius = 0.3\n", &format!("radius = 0.3\nroad = {road}\n"));
+        let record = run(&text, &[("parameters.speed", 0.0), ("analysis.end", 2e-3)]);
+        (last(&record, "force", "f3") - 3000.0) / 2e5
+    };
+    assert!((height("[\"0.001\", { table = [[-1, 0.002], [1, 0.002]] }]") - 0.003).abs() < 1e-9);
 }

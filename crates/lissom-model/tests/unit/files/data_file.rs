@@ -30,3 +30,11 @@ fn mistakes_are_reported_with_their_line() {
         assert!(problem.contains(words), "{text}: {problem}");
     }
 }
+
+#[test]
+fn a_grid_has_the_values_of_y_in_its_heading() {
+    let (across, rows) = grid("x,-1,1\n0,2,3\n4,5,6\n").expect("a grid");
+    assert_eq!((across, rows), (vec![-1.0, 1.0], vec![vec![0.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]]));
+    let error = grid("x,left,1\n0,2,3\n").expect_err("an error").to_string();
+    assert_eq!(error, "line 1: `left` is no value of y");
+}

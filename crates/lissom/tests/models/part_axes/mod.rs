@@ -248,6 +248,7 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         | OutputKind::RelativeMotion
         | OutputKind::Contact
         | OutputKind::Spring
+        | OutputKind::Tyre
         | OutputKind::Distance
         | OutputKind::Power
         | OutputKind::Work

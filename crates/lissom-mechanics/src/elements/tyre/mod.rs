@@ -1,23 +1,34 @@
-//! A tyre on a plane road: brush model of the tread, with the deflection of carcass and tread as states.
+//! A tyre on a road: its deflection, and the slip that carcass and tread build up, as states.
 //!
-//! Legend: in axes of the road: c centre and h its height, n normal, a axis of the wheel, γ camber angle, sin γ = a·n, R free radius, δ
-//! deflection, Ω = a·ω, P centre of contact, v_P velocity of the wheel there, x = a × n/cos γ direction of rolling, y = n × x; N normal force, μ
-//! friction, e deflections (states), σ relaxation lengths, ε deflections over them, c stiffness per slip and normal force, τ damping time, t trail.
+//! Legend: in axes of the road: c centre, n normal of the road under the tyre and h height of c above it, a axis of the wheel, γ camber angle,
+//! sin γ = a·n, R free radius, δ deflection, Ω = a·ω, P centre of contact, v_P velocity of the wheel there, x = a × n/cos γ direction of rolling,
+//! y = n × x; N normal force, e deflections (states), σ relaxation lengths, ε deflections over them, τ damping time.
 //!
 //! ```text
 //! δ = R cos γ - h,    N = max(0, k δ + d δ̇),    R_e = R - δ/3,    V = (x·v_P + Ω h/cos γ, y·v_P)
-//! s = (V₁ - Ω R_e, V₂),    w⁴ = V₁⁴ + s⁴,    e' = -s - w e/σ,    ε = (e + τ e'/(1 + w/w₀))/σ
-//! q = (c₁ ε₁, c₂ ε₂ - c_γ sin γ),    p = |q|/(3 μ),    F = N q (3 - 3 p + p²)/3,   beyond p = 1 μ N q/|q|
-//! t = t₀ (1 - p)³/(1 - p + p²/3),    M_n = -t F₂ V₁/(V₁² + v₀²)^½,    M_a = -f N R_e tanh(Ω R_e/v₀)
+//! s = (V₁ - Ω R_e, V₂),    w² = V₁² + (|l s| |l e/σ|²)²,    e' = -s - w e/σ,    ε = (e + τ e'/(1 + w/w₀))/σ
+//! l_k = f/ε_s,k + (1 - f)/3,    f = 1/(1 + (V₁² + |s|²)/w₀²)
 //! ```
 //!
-//! [Pacejka 2012, chapters 3, 7 and 8]. The parabola of pressure makes the sum of forces of a brush this cubic, and the force of the tread
-//! acts behind the centre of contact. In steady rolling ε₁ is the longitudinal slip and ε₂ the tangent of the slip angle. At standstill the states
-//! keep the force, without creep. The longitudinal force acts at the effective radius R_e, at which the wheel rolls without it.
+//! [Pacejka 2012, chapters 7 and 8]. In steady rolling ε₁ is the longitudinal slip κ and -ε₂ the tangent of the slip angle, and a law gives the
+//! forces of the tread over them. At standstill the states keep the force, without creep. Before it w keeps the deflections within those at which the
+//! tread slides, ε_s: with more, a vehicle that stops with locked wheels would be thrown back. The longitudinal force acts at the effective radius
+//! R_e, at which the wheel rolls without it.
+//!
+//! An uneven road is replaced by the plane that fits its heights at points of the contact best.
 
-use lissom_motion::{Matrix6, Vector3, Vector6, lie_bracket_matrix};
+mod brush;
+pub mod magic_formula;
+mod road;
+mod tread;
+
+use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix};
 use nalgebra::SMatrix;
 
+use self::brush::Brush;
+use self::magic_formula::MagicFormula;
+use self::road::Ground;
+use self::tread::{Law, Slip};
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
@@ -28,17 +39,35 @@ use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CoordinateId, Kinematics, Switch};
 use crate::ports::Ports;
-use crate::registry::ParameterType::{Direction, NotNegative, Positive};
-use crate::registry::{ParameterError, Parameters, optional, required, unitless};
+use crate::registry::ParameterType::{
+    Choice, Coefficients, Direction, DirectionOr, HeightField, NotNegative, Positive,
+};
+use crate::registry::{ModelAxis, ParameterError, Parameters, optional, required, unitless};
 use crate::signals::measurement::Gradient;
 use crate::wheels::wheel_on_rail::Pose;
 
 /// With derivatives by the tip's variation, its twist relative to the base, and the states.
 type Varied = Dual<14>;
+/// Key in the coefficients of a file: 1 for a tyre that was measured on the left, -1 on the right.
+pub const SIDE: &str = "TYRESIDE";
+
+/// Parameters that are not data of a brush.
+const OF_BOTH: [&str; 9] = [
+    "normal",
+    "wheel_axis",
+    "magic_formula",
+    "mounted",
+    "damping_time",
+    "road",
+    "road_direction",
+    "width",
+    "contact_length",
+];
+
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "tyre",
-    summary: "A tyre on a plane road: brush model with combined slip, relaxation, camber, trail and standstill without creep.",
+    summary: "A tyre on a road, plane or uneven: brush model or Magic Formula with combined slip, relaxation, camber, trail and standstill without creep.",
     sample: "normal = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]\nradius = 0.31\nstiffness = 2e5\nfriction_coefficient = 0.9\nslip_stiffness = 20.0\n\
              cornering_stiffness = 15.0",
     parameters: &[
@@ -60,25 +89,45 @@ pub const KIND: ElementKind = ElementKind {
             "m",
             "Free radius; default: the one with which it touches the road at the start.",
         ),
-        required("stiffness", Positive, "N/m", "Normal force per deflection."),
-        optional("damping", NotNegative, "N s/m", "Normal force per deflection rate.").or_number(0.0),
+        unitless(
+            "magic_formula",
+            Coefficients,
+            "Coefficients of PAC2002 or MF-Tyre 5.2: a tyre property file `.tir`, or `{ file = \"…\", LMUY = 0.8 }` with other values of some. They replace the \
+            other data of the tyre except for `damping_time`.",
+        ),
+        unitless(
+            "mounted",
+            Choice(&["left", "right"]),
+            "Side of the vehicle, on which `wheel_axis` points to the left; offsets change their sign on the side for which the file was not measured; \
+            default: the side of the file.",
+        ),
+        optional(
+            "stiffness",
+            Positive,
+            "N/m",
+            "Normal force per deflection; required without `magic_formula`.",
+        ),
+        optional(
+            "damping",
+            NotNegative,
+            "N s/m",
+            "Normal force per deflection rate; default 0, or that of the file.",
+        ),
         unitless(
             "friction_coefficient",
             Positive,
             "Coefficient of friction; that of dry asphalt is the default.",
         )
         .or_number(0.9),
-        required(
+        unitless(
             "slip_stiffness",
             Positive,
-            "",
-            "Longitudinal force per slip and normal force, at small slip.",
+            "Longitudinal force per slip and normal force, at small slip; required without `magic_formula`.",
         ),
-        required(
+        unitless(
             "cornering_stiffness",
             Positive,
-            "",
-            "Lateral force per slip angle and normal force, at small angles.",
+            "Lateral force per slip angle and normal force, at small angles; required without `magic_formula`.",
         ),
         unitless(
             "camber_stiffness",
@@ -120,6 +169,30 @@ pub const KIND: ElementKind = ElementKind {
             "Decrease of friction with the normal force: μ/(1 + this N).",
         )
         .or_number(0.0),
+        optional(
+            "road",
+            HeightField,
+            "m",
+            "Height of an uneven road above the plane, along `normal`: an expression of `x` and `y`, a table over `x`, a grid `{ file = \"…\" }`, or a \
+            random profile `{ class = \"C\" }` of ISO 8608; x and y from `at_base`, in the plane.",
+        ),
+        unitless(
+            "road_direction",
+            DirectionOr(ModelAxis::X),
+            "Direction of x of the road at the start, global axes; its part in the plane counts.",
+        ),
+        optional(
+            "width",
+            Positive,
+            "m",
+            "Width of the contact on an uneven road; default 0.6 of the radius.",
+        ),
+        optional(
+            "contact_length",
+            Positive,
+            "m",
+            "Length of the contact on an uneven road; default 0.4 of the radius.",
+        ),
     ],
     ports: Ports::TWO_FRAMES,
     build,
@@ -133,32 +206,13 @@ pub struct Tyre {
     states: [CoordinateId; 2],
     /// a, in the tip's axes.
     axis: Vector3,
-    /// On which side of the road, along its normal.
-    side: f64,
-    law: TyreLaw,
-    switch_states: SwitchStates,
-}
-
-/// Forces of a tyre over its slip.
-#[derive(Clone, Copy, Debug)]
-struct TyreLaw {
+    ground: Ground,
+    /// R.
     radius: f64,
-    /// k and d.
-    normal: [f64; 2],
-    /// μ, and its decrease with the normal force.
-    friction: [f64; 2],
-    /// c₁, c₂ and c_γ.
-    slip: [f64; 3],
-    /// t₀.
-    trail: f64,
-    /// σ.
-    relaxation: [f64; 2],
+    law: Law,
     /// τ.
     damping_time: f64,
-    /// f.
-    resistance: f64,
-    /// v₀ [m/s].
-    slow: f64,
+    switch_states: SwitchStates,
 }
 
 /// Forces and rates of a tyre.
@@ -169,6 +223,8 @@ struct Touch<T> {
     wrench: [T; 6],
     /// -e'.
     falling: [T; 2],
+    /// κ, α, F₁, F₂, N and M_n.
+    slip: [T; 6],
 }
 
 fn build(
@@ -177,50 +233,48 @@ fn build(
     parameters: &Parameters,
 ) -> Result<Contribution, ParameterError> {
     let (frames, axis, height) = on_plane(model, attached, parameters)?;
-    let number = |key| parameters.number(key);
-    let radius = parameters.number_or("radius", height.abs() / (1.0 - axis.z * axis.z).sqrt())?;
-    let law = TyreLaw {
-        radius,
-        normal: [number("stiffness")?, number("damping")?],
-        friction: [number("friction_coefficient")?, number("load_sensitivity")?],
-        slip: [number("slip_stiffness")?, number("cornering_stiffness")?, number("camber_stiffness")?],
-        trail: parameters.number_or("pneumatic_trail", 0.1 * radius)?,
-        relaxation: [
-            parameters.number_or("longitudinal_relaxation_length", 0.5 * radius)?,
-            parameters.number_or("relaxation_length", radius)?,
-        ],
-        damping_time: number("damping_time")?,
-        resistance: number("rolling_resistance")?,
-        slow: 0.3,
+    let (radius, law) = if parameters.has("magic_formula") {
+        let law = magic_formula(parameters)?;
+        (law.radius(), Law::MagicFormula(Box::new(law)))
+    } else {
+        let radius = if parameters.has("road") {
+            parameters.number("radius")?
+        } else {
+            parameters.number_or("radius", height.abs() / (1.0 - axis.z * axis.z).sqrt())?
+        };
+        (radius, Law::Brush(Brush::new(radius, parameters)?))
     };
     let mut contribution = Contribution::to(model);
     let states = ["along", "across"].map(|word| {
         contribution.add_state(format!("{}, tyre {word}", model.nodes[frames[1].node].name), 0.0, 0.01)
     });
-    let switch_states = SwitchStates::default();
-    let frames = FramePair::new(frames);
-    Ok(contribution.with(Tyre { frames, states, axis, side: height.signum(), law, switch_states }))
+    Ok(contribution.with(Tyre {
+        frames: FramePair::new(frames),
+        states,
+        axis,
+        ground: Ground::new(height.signum(), radius, parameters)?,
+        radius,
+        law,
+        damping_time: parameters.number("damping_time")?,
+        switch_states: SwitchStates::default(),
+    }))
 }
 
-impl TyreLaw {
-    /// F and M_n for these slips, normal force, camber and rolling velocity.
-    fn tread<T: Number>(&self, slips: [T; 2], normal: T, lean: T, rolling: T) -> ([T; 2], T) {
-        let [along, across, camber] = self.slip;
-        let pull = [slips[0].scaled(along), slips[1].scaled(across) - lean.scaled(camber)];
-        let size = (pull[0] * pull[0] + pull[1] * pull[1]).plus(1e-24).square_root();
-        let friction = T::constant(self.friction[0]) / normal.scaled(self.friction[1]).plus(1.0);
-        let part = size / friction.scaled(3.0);
-        let one = T::constant(1.0);
-        if part.value() >= 1.0 {
-            return (pull.map(|pull| normal * friction * pull / size), T::constant(0.0));
-        }
-        let share = (part * part - part.scaled(3.0)).plus(3.0).scaled(1.0 / 3.0);
-        let force = pull.map(|pull| normal * pull * share);
-        let rest = one - part;
-        let trail = (rest * rest * rest / (rest + (part * part).scaled(1.0 / 3.0))).scaled(self.trail);
-        let forwards = rolling / (rolling * rolling).plus(self.slow * self.slow).square_root();
-        (force, -trail * force[1] * forwards)
+/// The law of a file, which replaces data of a brush.
+fn magic_formula(parameters: &Parameters) -> Result<MagicFormula, ParameterError> {
+    let is_of_brush = |name: &&str| !OF_BOTH.contains(name) && parameters.has(name);
+    if let Some(name) = KIND.parameters.iter().map(|parameter| parameter.name).find(is_of_brush) {
+        let problem = "is not used with `magic_formula`: specify the coefficient of the file there instead, as `{ file = \"…\", LMUY = 0.8 }`";
+        return Err(ParameterError::new(name, problem));
     }
+    let given = parameters.coefficients("magic_formula")?;
+    let measured_on_the_right = given.get(SIDE).is_some_and(|side| *side < 0.0);
+    let is_on_the_right = if parameters.has("mounted") {
+        parameters.word("mounted")? == "right"
+    } else {
+        measured_on_the_right
+    };
+    MagicFormula::new(given, is_on_the_right != measured_on_the_right)
 }
 
 impl Tyre {
@@ -230,60 +284,89 @@ impl Tyre {
         states: [T; 2],
         touches: bool,
     ) -> Touch<T> {
-        let zero = T::constant(0.0);
-        let normal = [0.0, 0.0, self.side].map(T::constant);
+        let [zero, one] = [0.0, 1.0].map(T::constant);
         let axis = pose.apply([0, 1, 2].map(|k| T::constant(self.axis[k])));
-        let height = pose.position[2].scaled(self.side);
+        let (normal, height) = self.ground.under(pose, axis);
         let lean = dot(axis, normal);
-        let cosine = (T::constant(1.0) - lean * lean).square_root();
-        let depth = cosine.scaled(self.law.radius) - height;
+        let cosine = (one - lean * lean).square_root();
+        let depth = cosine.scaled(self.radius) - height;
         let [vx, vy, vz, wx, wy, wz] = *twist;
         let turning = pose.apply([wx, wy, wz]);
         // From the centre to P, along the wheel's plane.
         let loaded = height / cosine;
-        let upwards = times(sum(normal, times(axis, -lean)), T::constant(1.0) / cosine);
+        let upwards = times(sum(normal, times(axis, -lean)), one / cosine);
         let arm = times(upwards, -loaded);
         let velocity = sum(pose.apply([vx, vy, vz]), cross(turning, arm));
         let deepening = -dot(normal, velocity);
-        let along = times(cross(axis, normal), T::constant(1.0) / cosine);
+        let along = times(cross(axis, normal), one / cosine);
         let across = cross(normal, along);
         let spin = dot(turning, axis);
-        let effective = T::constant(self.law.radius) - depth.scaled(1.0 / 3.0);
+        let effective = self.law.effective_radius(self.radius, depth);
         let rolling = dot(along, velocity) + spin * loaded;
         let slides = [rolling - spin * effective, dot(across, velocity)];
-        let [stiffness, damping] = self.law.normal;
-        let pressed = depth.scaled(stiffness) + deepening.scaled(damping);
+        let pressed = self.law.normal(depth, deepening);
         if !touches || pressed.value() <= 0.0 {
             // Deflections vanish in the air within some 50 ms.
             let falling = states.map(|state| state.scaled(20.0));
-            return Touch { normal: [depth, deepening, zero], wrench: [zero; 6], falling };
+            return Touch { normal: [depth, deepening, zero], wrench: [zero; 6], falling, slip: [zero; 6] };
         }
-        let square = slides[0] * slides[0] + slides[1] * slides[1];
         let carried = rolling * rolling;
-        let passing = (carried * carried + square * square).plus(f64::MIN_POSITIVE).power(0.25);
+        let lengths = self.law.relaxation(pressed, lean);
+        let passing = self.passing(carried, slides, [0, 1].map(|k| states[k] / lengths[k]));
         // w₀ is 1 m/s.
-        let fading = T::constant(self.law.damping_time) / passing.plus(1.0);
-        let falling = [0, 1].map(|k| slides[k] + passing * states[k].scaled(1.0 / self.law.relaxation[k]));
-        let slips = [0, 1].map(|k| (states[k] - fading * falling[k]).scaled(1.0 / self.law.relaxation[k]));
-        let ([pull, side_force], aligning) = self.law.tread(slips, pressed, lean, rolling);
-        let resisting = (spin * effective).scaled(1.0 / self.law.slow).hyperbolic_tangent();
-        let resisting = (pressed * effective * resisting).scaled(-self.law.resistance);
-        let force = sum(times(normal, pressed), sum(times(along, pull), times(across, side_force)));
+        let fading = T::constant(self.damping_time) / passing.plus(1.0);
+        let falling = [0, 1].map(|k| slides[k] + passing * states[k] / lengths[k]);
+        let slips = [0, 1].map(|k| (states[k] - fading * falling[k]) / lengths[k]);
+        // Below 0.3 m/s moments that depend on the direction of motion fade.
+        let slow = 0.3;
+        let slip = Slip {
+            along: slips[0],
+            across: -slips[1],
+            lean,
+            normal: pressed,
+            rolling,
+            forwards: rolling / carried.plus(slow * slow).square_root(),
+            turning: (spin * effective).scaled(1.0 / slow).hyperbolic_tangent(),
+        };
+        let tread = self.law.tread(&slip);
+        let force = sum(times(normal, pressed), sum(times(along, tread.along), times(across, tread.across)));
         // The longitudinal force acts at the effective radius.
-        let about_axis = pull * (loaded - effective) + resisting;
-        let moment = sum(cross(arm, force), sum(times(normal, aligning), times(axis, about_axis)));
+        let about_axis = tread.along * (loaded - effective) + tread.resisting;
+        let about = sum(times(along, tread.overturning), times(normal, tread.aligning));
+        let moment = sum(cross(arm, force), sum(about, times(axis, about_axis)));
         let [force, moment] = [pose.apply_inverse(force), pose.apply_inverse(moment)];
-        let wrench = [force[0], force[1], force[2], moment[0], moment[1], moment[2]];
-        Touch { normal: [depth, deepening, pressed], wrench, falling }
+        Touch {
+            normal: [depth, deepening, pressed],
+            wrench: [force[0], force[1], force[2], moment[0], moment[1], moment[2]],
+            falling,
+            slip: [slips[0], slip.across.arc_tangent(), tread.along, tread.across, pressed, tread.aligning],
+        }
+    }
+
+    /// w, from V₁², s and e/σ.
+    fn passing<T: Number>(&self, carried: T, slides: [T; 2], bent: [T; 2]) -> T {
+        let fast = carried + slides[0] * slides[0] + slides[1] * slides[1];
+        let slow = T::constant(1.0) / fast.plus(1.0);
+        let sliding = self.law.sliding();
+        let limits = [0, 1].map(|k| slow.scaled(1.0 / sliding[k] - 1.0 / 3.0).plus(1.0 / 3.0));
+        let square = |of: [T; 2]| {
+            let [first, second] = [0, 1].map(|k| limits[k] * of[k]);
+            first * first + second * second
+        };
+        let near = square(bent);
+        (carried + square(slides) * near * near).plus(f64::MIN_POSITIVE).square_root()
     }
 
     fn touches(&self, at: &Kinematics, motion: &RelativeMotion) -> bool {
         is_on_upper_branch(self.switch_states.of(at).first(), self.depth(&motion.rotation, &motion.position))
     }
 
-    fn depth(&self, rotation: &lissom_motion::Matrix3, position: &Vector3) -> f64 {
-        let lean = (rotation * self.axis).z;
-        (1.0 - lean * lean).max(0.0).sqrt() * self.law.radius - self.side * position.z
+    fn depth(&self, rotation: &Matrix3, position: &Vector3) -> f64 {
+        let pose = Pose::new(rotation, position);
+        let axis = (rotation * self.axis).into();
+        let (normal, height) = self.ground.under(&pose, axis);
+        let lean = dot(axis, normal);
+        (1.0 - lean * lean).max(0.0).sqrt() * self.radius - height
     }
 
     fn value(&self, at: &Kinematics) -> (RelativeMotion, Touch<f64>) {
@@ -309,6 +392,19 @@ impl Tyre {
 fn of_motion(value: &Varied, motion: &RelativeMotion) -> [Vector6; 2] {
     let [place, rate] = [0, 6].map(|first| Vector6::from_column_slice(&value.by[first..first + 6]));
     [place - lie_bracket_matrix(&motion.carried).tr_mul(&rate), rate]
+}
+
+/// Derivatives of a number with respect to the motion of both nodes and the states.
+fn gradient(value: &Varied, motion: &RelativeMotion, columns: &[Matrix6; 2]) -> Gradient {
+    let mut gradient = Gradient::zero();
+    let [place, by_rate] = of_motion(value, motion);
+    for (j, columns) in columns.iter().enumerate() {
+        let slots = 6 * j..6 * j + 6;
+        gradient.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&place).as_slice());
+        gradient.by_rate[slots].copy_from_slice(columns.tr_mul(&by_rate).as_slice());
+    }
+    gradient.by_place[12..14].copy_from_slice(&value.by[12..]);
+    gradient
 }
 
 impl Element for Tyre {
@@ -390,16 +486,28 @@ impl Spring for Tyre {
         let (motion, touch) = self.varied(at);
         let columns = self.frames.columns(&motion);
         let [depth, rate, force] = touch.normal;
-        [-depth, -rate, force].map(|value| {
-            let mut gradient = Gradient::zero();
-            let [place, by_rate] = of_motion(&value, &motion);
-            for (j, columns) in columns.iter().enumerate() {
-                let slots = 6 * j..6 * j + 6;
-                gradient.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&place).as_slice());
-                gradient.by_rate[slots].copy_from_slice(columns.tr_mul(&by_rate).as_slice());
-            }
-            gradient
-        })
+        [-depth, -rate, force].map(|value| gradient(&value, &motion, &columns))
+    }
+
+    fn has_slip(&self) -> bool {
+        true
+    }
+
+    fn slip(&self, at: &Kinematics) -> [f64; 6] {
+        self.value(at).1.slip
+    }
+
+    fn largest_load(&self) -> Option<f64> {
+        match &self.law {
+            Law::MagicFormula(law) => Some(law.largest_load()).filter(|load| load.is_finite()),
+            Law::Brush(_) => None,
+        }
+    }
+
+    fn slip_gradients(&self, at: &Kinematics) -> [Gradient; 6] {
+        let (motion, touch) = self.varied(at);
+        let columns = self.frames.columns(&motion);
+        touch.slip.map(|value| gradient(&value, &motion, &columns))
     }
 }
 
