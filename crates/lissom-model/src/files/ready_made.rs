@@ -30,13 +30,18 @@ macro_rules! part {
 }
 
 /// All of them.
-pub const PARTS: [ReadyMadePart; 6] = [
+pub const PARTS: [ReadyMadePart; 11] = [
     part!("speed-drive", "motor with limited torque and PI control of the rate of a joint"),
     part!("suspended-wheel", "wheel with spring, damper and stops, and a tyre on an uneven road"),
     part!("unbalanced-rotor", "flexible shaft with an unbalanced disc in two bearings, run up from rest"),
     part!("parallel-gripper", "two coupled fingers with a drive of limited force"),
     part!("hydraulic-cylinder", "cylinder between two points with compressible oil and a 4/3 valve"),
     part!("belt-drive", "elastic belt between two joints, which slips beyond its friction"),
+    part!("steering-rack", "pinion, rack and two tie rods, turned by an angle of the steering wheel"),
+    part!("anti-roll-bar", "torsionally elastic bar with two arms and drop links"),
+    part!("differential", "open or locking differential between a shaft and two wheels"),
+    part!("driveline", "engine, clutch, gearbox and differential on two wheels"),
+    part!("double-wishbone-corner", "wheel on double wishbones with spring and damper, left or right"),
 ];
 
 /// The part called `name`, with or without the prefix.

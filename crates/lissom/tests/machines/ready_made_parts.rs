@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use lissom::Model;
 use lissom::analyses::modes::{ModeRequest, modes};
 use lissom::model::files::ready_made::PARTS;
+use lissom_motion::{Matrix3, Vector3};
 
 use crate::support::runs::{column, last, run, run_without_warnings};
 
@@ -305,4 +306,331 @@ fn a_belt_transmits_stretches_and_slips() {
     let record = run(BELT, &[("analysis.end", "2.5")]);
     close(last(&record, "belt.force", "force"), limit, 1e-5, "limit");
     close(last(&record, "acceleration", "a1"), (0.1 * limit - 30.0) / 0.01, 1e-4, "deceleration");
+}
+
+/// Zero of a function between two arguments of different signs.
+fn zero(function: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if function(low) * function(middle) <= 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Two uprights on vertical kingpins 0.12 m ahead of the ends of the tie rods, with a moment on each.
+const STEERING: &str = r#"
+lissom = 1
+inputs.wheel = 1.5
+bodies.left = { mass = 10, inertia = [1, 1, 1], position = [0.12, 0.7, 0] }
+bodies.right = { mass = 10, inertia = [1, 1, 1], position = [0.12, -0.7, 0] }
+joints.left = { kind = "revolute", base = "ground", tip = "left", axis = [0, 0, 1] }
+joints.right = { kind = "revolute", base = "ground", tip = "right", axis = [0, 0, 1] }
+loads.left = { kind = "joint_torque", joint = "left", torque = -30 }
+loads.right = { kind = "joint_torque", joint = "right", torque = -10 }
+outputs.left = { kind = "relative", of = "left" }
+outputs.right = { kind = "relative", of = "right" }
+analysis = { kind = "statics", steps = 10 }
+[parts.steering]
+include = "lissom:steering-rack"
+names = { chassis = "ground", left = "left", right = "right", steering = "wheel" }
+parameters = { radius = -8e-3, outer = 0.66, outer_z = 0.01 }
+"#;
+
+/// The length of a tie rod determines the angle of its upright over the displacement of the rack; virtual work the torque of the driver, and
+/// the column is twisted by it.
+#[test]
+fn a_steering_rack_steers_by_its_triangles_and_carries_moments_to_the_driver() {
+    let record = run_without_warnings(STEERING, &[]);
+    let [inner, outer, arm] = [0.35_f64, 0.66, 0.12];
+    let length = (outer - inner).hypot(0.01);
+    // The end of the tie rod of the side, relative to the kingpin at (arm, 0.7 side), turned by the angle.
+    let angle = |side: f64, rack: f64| {
+        let own = |angle: f64| {
+            let (sine, cosine) = angle.sin_cos();
+            let (x, y) = (-arm, side * (outer - 0.7));
+            let end = [arm + x * cosine - y * sine, side * 0.7 + x * sine + y * cosine];
+            end[0].hypot(end[1] - side * inner - rack).hypot(0.01) - length
+        };
+        zero(own, [-0.3, 0.3])
+    };
+    let rack = last(&record, "steering.rack", "displacement");
+    assert!(rack < -0.01, "{rack}");
+    let step = 1e-5;
+    let mut torque = 0.0;
+    for (name, side, moment) in [("left", 1.0, -30.0), ("right", -1.0, -10.0)] {
+        let found = last(&record, name, "angle");
+        assert!(found > 0.08, "to the left: {found}");
+        close(found, angle(side, rack), 1e-9, name);
+        let slope = (angle(side, rack + step) - angle(side, rack - step)) / (2.0 * step);
+        torque -= moment * slope * -8e-3;
+        // The rod's force about the kingpin.
+        let [fx, fy] = ["f1", "f2"].map(|axis| last(&record, &format!("steering.{name}_rod"), axis));
+        let (sine, cosine) = found.sin_cos();
+        let (x, y) = (-arm, side * (outer - 0.7));
+        let own = (x * cosine - y * sine) * fy - (x * sine + y * cosine) * fx;
+        close(own, -moment, 1e-9, name);
+    }
+    close(last(&record, "steering.torque", "value"), torque, 1e-6, "torque of the driver");
+    close(rack, -8e-3 * (1.5 - torque / 1000.0), 1e-9, "twist of the column");
+}
+
+/// Two bodies on vertical slides with springs, at the lower ends of the drop links.
+const BAR: &str = r#"
+lissom = 1
+bodies.left = { mass = 10, inertia = [1, 1, 1], position = [0.2, 0.45, -0.15] }
+bodies.right = { mass = 10, inertia = [1, 1, 1], position = [0.2, -0.45, -0.15] }
+joints.left = { kind = "prismatic", base = "ground", tip = "left", axis = [0, 0, 1] }
+joints.right = { kind = "prismatic", base = "ground", tip = "right", axis = [0, 0, 1] }
+springs.left = { kind = "axial", joint = "left", stiffness = 2e4 }
+springs.right = { kind = "axial", joint = "right", stiffness = 2e4 }
+parameters = { left = 800, right = -800 }
+loads.left = { kind = "joint_force", joint = "left", force = "left" }
+loads.right = { kind = "joint_force", joint = "right", force = "right" }
+outputs.left = { kind = "relative", of = "left" }
+outputs.right = { kind = "relative", of = "right" }
+analysis = { kind = "statics", steps = 5 }
+[parts.bar]
+include = "lissom:anti-roll-bar"
+names = { chassis = "ground", left_end = "left", right_end = "right" }
+"#;
+
+/// Equal loads deflect the springs alone. Opposite ones work against both: F = k_s z + dV/dz with V = k φ²/2, φ the difference of the
+/// angles at which the links have their length; for small deflections F = (k_s + 2 k/a²) z.
+#[test]
+fn an_anti_roll_bar_resists_roll_and_not_heave() {
+    let (arm, link) = (0.2_f64, 0.15);
+    let stiffness = 79e9 * PI * 0.022_f64.powi(4) / 32.0 / 0.9;
+    let angle = |height: f64| {
+        let gap = |angle: f64| (arm * (angle.cos() - 1.0)).hypot(arm * angle.sin() + link - height) - link;
+        zero(gap, [-0.5, 0.5])
+    };
+    for arm_sign in ["0.2", "-0.2"] {
+        let mirrored = [
+            ("parts.bar.parameters.arm", arm_sign),
+            ("parts.bar.position", if arm_sign == "0.2" { "[0, 0, 0]" } else { "[0.4, 0, 0]" }),
+        ];
+        let heave = [mirrored[0], mirrored[1], ("parameters.right", "800")];
+        let record = run_without_warnings(BAR, &heave);
+        close(last(&record, "left", "displacement"), 0.04, 1e-9, "heave");
+        assert!(last(&record, "bar.bar", "value").abs() < 1e-9, "no torque in heave");
+        let record = run_without_warnings(BAR, &mirrored);
+        let [left, right] = ["left", "right"].map(|name| last(&record, name, "displacement"));
+        let twist = angle(left) - angle(right);
+        close(last(&record, "bar.bar", "value"), stiffness * twist, 1e-7, "torque");
+        let step = 1e-6;
+        for (height, load) in [(left, 800.0), (right, -800.0)] {
+            let slope = (angle(height + step) - angle(height - step)) / (2.0 * step);
+            let torque = stiffness * twist * if load > 0.0 { slope } else { -slope };
+            close(2e4 * height + torque, load, 1e-5, "equilibrium");
+        }
+        close(left, 800.0 / (2e4 + 2.0 * stiffness / arm.powi(2)), 5e-3, "small angles");
+    }
+}
+
+/// Wheels of 0.5 and 2 kg m² on a shaft with 100 N m.
+const DIFFERENTIAL: &str = r#"
+lissom = 1
+bodies.left = { mass = 10, inertia = [0.5, 0.5, 0.5], position = [0, 0.7, 0] }
+bodies.right = { mass = 10, inertia = [2, 2, 2], position = [0, -0.7, 0] }
+joints.left = { kind = "revolute", base = "ground", tip = "left", axis = [0, 1, 0], rate = 4 }
+joints.right = { kind = "revolute", base = "ground", tip = "right", axis = [0, 1, 0], rate = 4 }
+loads.shaft = { kind = "joint_torque", joint = "gears.shaft", torque = 100 }
+outputs.left = { kind = "relative", of = "left" }
+outputs.right = { kind = "relative", of = "right" }
+analysis = { kind = "dynamics", end = 2, scheme = "radau-iia-5" }
+[parts.gears]
+include = "lissom:differential"
+names = { left = "left", right = "right" }
+parameters = { inertia = 0.05, rate = 14 }
+"#;
+
+/// Open: both wheels have half of n λ, with λ = T/(1 + J n²/4 (1/J₁ + 1/J₂)). With a locking torque that suffices both accelerate by
+/// n T/(J₁ + J₂ + n² J), for which the slower one needs L = (J₂ - J₁)/2 of that; c Δ and L₀ tanh(Δ/w) are this torque.
+#[test]
+fn a_differential_halves_the_torque_or_locks() {
+    let (ratio, shaft, left, right, torque) = (3.5, 0.05, 0.5, 2.0, 100.0);
+    let record = run_without_warnings(DIFFERENTIAL, &[]);
+    let passed = torque / (1.0 + shaft * ratio * ratio / 4.0 * (1.0 / left + 1.0 / right));
+    let rates = ["left", "right"].map(|name| last(&record, name, "rate"));
+    for (k, inertia) in [left, right].into_iter().enumerate() {
+        close(rates[k], 4.0 + ratio * passed / 2.0 / inertia * 2.0, 1e-9, "rate");
+        let moment = last(&record, "gears.torques", &format!("moment{}", k + 2));
+        close(moment, ratio * passed / 2.0, 1e-9, "half of the torque");
+    }
+    close(last(&record, "gears.torques", "moment1"), -passed, 1e-9, "torque of the shaft");
+    close(last(&record, "gears.shaft", "rate"), ratio / 2.0 * (rates[0] + rates[1]), 1e-12, "mean");
+    let together = ratio * torque / (left + right + ratio * ratio * shaft);
+    let locking = (right - left) / 2.0 * together;
+    let laws = [("damping", "20", locking / 20.0), ("preload", "120", 0.1 * (locking / 120.0_f64).atanh())];
+    for (parameter, value, difference) in laws {
+        let record =
+            run_without_warnings(DIFFERENTIAL, &[(&format!("parts.gears.parameters.{parameter}"), value)]);
+        let [fast, slow] = ["left", "right"].map(|name| last(&record, name, "rate"));
+        close(fast - slow, difference, 1e-6, parameter);
+        close(last(&record, "gears.locking", "value"), locking, 1e-6, parameter);
+        let momentum = left * fast + right * slow + ratio * shaft * last(&record, "gears.shaft", "rate");
+        let wanted = 4.0 * (left + right + ratio * ratio * shaft) + ratio * torque * 2.0;
+        close(momentum, wanted, 1e-9, "momentum");
+    }
+}
+
+/// Two wheels of 40 kg m² in all, as of a car, and the engine of the defaults.
+const DRIVELINE: &str = r#"
+lissom = 1
+inputs = { throttle = 1, clutch = 1, gear = 2 }
+bodies.left = { mass = 10, inertia = [50, 50, 50], position = [0, 0.7, 0] }
+bodies.right = { mass = 10, inertia = [50, 50, 50], position = [0, -0.7, 0] }
+joints.left = { kind = "revolute", base = "ground", tip = "left", axis = [0, 1, 0] }
+joints.right = { kind = "revolute", base = "ground", tip = "right", axis = [0, 1, 0] }
+outputs.left = { kind = "relative", of = "left" }
+outputs.right = { kind = "relative", of = "right" }
+analysis = { kind = "dynamics", end = 1, scheme = "radau-iia-5" }
+[parts.drive]
+include = "lissom:driveline"
+names = { left = "left", right = "right", throttle = "throttle", clutch = "clutch", gear = "gear" }
+"#;
+
+/// Up to its largest torque T at ω_p the engine has 0.6 T + 0.4 T ω/ω_p: ω = 1.5 ω_p (exp(λ t) - 1), λ = 0.4 T/(ω_p J) with
+/// J = J_e + J_s/g² + 2 J_w/(g n)². The clutch transmits (J - J_e) ω' and slips by w artanh of it over its capacity. Without throttle and clutch
+/// ω decays by c/J_e; beyond the rated rate it ends where full load is zero.
+#[test]
+fn a_driveline_accelerates_by_its_full_load_and_coasts_by_its_drag() {
+    let (torque, peak, engine, gear, last_ratio) = (250.0_f64, 250.0, 0.15, 2.0, 3.5);
+    let record = run_without_warnings(DRIVELINE, &[]);
+    let other = 0.02 / (gear * gear) + 2.0 * 50.0 / (gear * gear * last_ratio * last_ratio);
+    let growth = 0.4 * torque / (peak * (engine + other));
+    let rate = last(&record, "drive.engine", "rate");
+    let passed = other * 1.5 * peak * growth * growth.exp();
+    close(last(&record, "drive.clutch_torque", "value"), passed, 2e-3, "clutch");
+    let slip = rate - gear * last_ratio * last(&record, "left", "rate");
+    close(slip, 0.5 * (passed / 500.0).atanh(), 5e-3, "slip of the clutch");
+    // Without the slip both would have the rate of their common momentum.
+    let common = rate - slip * other / (engine + other);
+    close(common, 1.5 * peak * (growth.exp() - 1.0), 5e-4, "rate of the engine");
+    close(last(&record, "left", "rate"), last(&record, "right", "rate"), 1e-9, "both wheels");
+    close(last(&record, "drive.power", "value"), torque * (0.6 + 0.4 * rate / peak) * rate, 1e-9, "power");
+    let coasting = [
+        ("inputs.throttle", "0"),
+        ("inputs.clutch", "0"),
+        ("parts.drive.parameters.rate", "300"),
+        ("parts.drive.parameters.shaft_rate", "0"),
+    ];
+    let record = run_without_warnings(DRIVELINE, &coasting);
+    close(last(&record, "drive.engine", "rate"), 300.0 * f64::exp(-0.1 / engine), 1e-6, "coasting");
+    let racing = [("inputs.clutch", "0"), ("analysis.end", "5")];
+    close(last(&run(DRIVELINE, &racing), "drive.engine", "rate"), 650.0, 1e-6, "racing");
+}
+
+/// A corner whose lower wishbone turns from 0.25 rad below to 0.25 rad above its position, with a rod for its steering.
+const CORNER: &str = r#"
+lissom = 1
+inputs.brake = 0
+joints.turn = { kind = "prescribed_rotation", joint = "corner.lower_hinge", rotation = "side*0.25*sin(2*pi*t)" }
+springs.axle = { kind = "torsional", joint = "corner.axle", stiffness = 1 }
+outputs.hinge = { kind = "relative", of = "corner.lower_hinge" }
+analysis = { kind = "statics", steps = 40 }
+parameters.side = 1
+[joints.rod]
+kind = "distance"
+base = "ground"
+tip = "corner.upright"
+at_base = [-0.12, "-side*0.43", -0.04]
+at_tip = [-0.13, "-side*0.07", -0.05]
+[parts.corner]
+include = "lissom:double-wishbone-corner"
+names = { chassis = "ground", brake = "brake" }
+parameters = { side = "side" }
+"#;
+
+/// A point at the given distances from three others, on the side of the first guess.
+fn trilaterate(centres: [Vector3; 3], distances: [f64; 3], near: Vector3) -> Vector3 {
+    let [origin, second, third] = centres;
+    let first_axis = (second - origin).normalize();
+    let along = first_axis.dot(&(third - origin));
+    let across = third - origin - first_axis * along;
+    let (second_axis, width) = (across.normalize(), across.norm());
+    let length = (second - origin).norm();
+    let [a, b, c] = distances.map(|distance| distance * distance);
+    let x = (a - b + length * length) / (2.0 * length);
+    let y = (a - c + along * along + width * width - 2.0 * along * x) / (2.0 * width);
+    let third_axis = first_axis.cross(&second_axis);
+    let z = (a - x * x - y * y).sqrt() * third_axis.dot(&(near - origin)).signum();
+    origin + first_axis * x + second_axis * y + third_axis * z
+}
+
+/// Orthonormal axes of a triangle.
+fn axes(points: [Vector3; 3]) -> Matrix3 {
+    let first = (points[1] - points[0]).normalize();
+    let normal = first.cross(&(points[2] - points[0])).normalize();
+    Matrix3::from_columns(&[first, normal, normal.cross(&first)])
+}
+
+/// The upper ball joint is at given distances from the lower one and from two points of its hinge; the end of the rod from both and from its
+/// inner end. These three points move the wheel. The right side is the mirror image of the left one.
+#[test]
+fn a_double_wishbone_moves_its_wheel_as_its_spheres_meet() {
+    let left = run_without_warnings(CORNER, &[]);
+    let right = run_without_warnings(CORNER, &[("parameters.side", "-1")]);
+    let [lower_inner, lower, upper_inner, upper, rod_inner, rod, centre] = [
+        [0.0, -0.42, -0.11],
+        [0.005, -0.06, -0.12],
+        [0.0, -0.38, 0.12],
+        [-0.015, -0.10, 0.15],
+        [-0.12, -0.43, -0.04],
+        [-0.13, -0.07, -0.05],
+        [0.0, 0.0, 0.0],
+    ]
+    .map(Vector3::from);
+    let (spring_top, seat) = (Vector3::new(0.0, -0.30, 0.35), Vector3::new(0.0, -0.15, -0.1175));
+    let ahead = Vector3::new(0.2, 0.0, 0.0);
+    let start = axes([lower, upper, rod]);
+    let mut largest = [0.0_f64; 4];
+    for (row, angle) in column(&left, "hinge", "angle").iter().enumerate() {
+        let turned = |point: Vector3| {
+            let (sine, cosine) = angle.sin_cos();
+            let arm = point - lower_inner;
+            lower_inner + Vector3::new(arm.x, arm.y * cosine - arm.z * sine, arm.y * sine + arm.z * cosine)
+        };
+        let ball = turned(lower);
+        let hinge = [upper_inner - ahead, upper_inner + ahead];
+        let top = trilaterate(
+            [ball, hinge[0], hinge[1]],
+            [lower, hinge[0], hinge[1]].map(|point| (upper - point).norm()),
+            upper,
+        );
+        let end = trilaterate(
+            [ball, top, rod_inner],
+            [lower, upper, rod_inner].map(|point| (rod - point).norm()),
+            rod,
+        );
+        let rotation = axes([ball, top, end]) * start.transpose();
+        let hub = ball + rotation * (centre - lower);
+        let axle = rotation.column(1);
+        // The lowest point of a wheel: from its centre against z without the part along the axle.
+        let down = (axle * axle.z - Vector3::z()).normalize();
+        let wanted = [
+            ("travel", hub.z),
+            ("camber", -axle.z.asin()),
+            ("toe", (axle.x / axle.y).atan()),
+            ("track", hub.y + 0.31 * down.y),
+        ];
+        for (k, (name, wanted)) in wanted.into_iter().enumerate() {
+            let name = format!("corner.{name}");
+            let [left, right] = [&left, &right].map(|record| column(record, &name, "value")[row]);
+            assert!((left - wanted).abs() < 1e-9, "{name} at {angle}: {left}, not {wanted}");
+            assert!(
+                (right - left).abs() < 1e-9,
+                "{name} at {angle}: {right} on the right, {left} on the left"
+            );
+            largest[k] = largest[k].max(wanted.abs());
+        }
+        let length = (spring_top - turned(seat)).norm() - (spring_top - seat).norm();
+        let force = column(&left, "corner.spring", "force")[row];
+        assert!((force - (-5000.0 + 45e3 * length)).abs() < 1e-5, "{force}");
+    }
+    assert!(largest[0] > 0.08 && largest[1] > 0.02 && largest[2] > 1e-3 && largest[3] > 1e-3, "{largest:?}");
 }
