@@ -92,7 +92,7 @@ pub fn painted(
             visible::Seen::Partly => {
                 let mut rest = vec![face.clone()];
                 while let Some(face) = rest.pop() {
-                    if let Some(halves) = halved(&face, LONGEST * geometry.extent()) {
+                    if let Some(halves) = halved(&face, LONGEST * buffer.size()) {
                         rest.extend(halves);
                     } else if buffer.seen(&face, number) != visible::Seen::Hidden {
                         partly.push((mean_near(&face), seen(&face, shades[number])));

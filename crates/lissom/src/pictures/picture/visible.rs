@@ -41,8 +41,8 @@ impl ItemBuffer {
         let low = [0, 1].map(|k| bound(k, f64::INFINITY, f64::min));
         let high = [0, 1].map(|k| bound(k, f64::NEG_INFINITY, f64::max));
         let widest = (high[0] - low[0]).max(high[1] - low[1]);
-        // A part that extends far beyond the nodes makes the grid coarser, not larger.
-        let spacing = (size / ACROSS).max(widest / (3.0 * ACROSS)).max(f64::MIN_POSITIVE);
+        // A part that extends far beyond the nodes makes the grid coarser, not larger. A model that travels far is drawn at one instant.
+        let spacing = (size.min(2.0 * widest) / ACROSS).max(widest / (3.0 * ACROSS)).max(f64::MIN_POSITIVE);
         let count =
             |k: usize| if high[k] > low[k] { ((high[k] - low[k]) / spacing).ceil() as usize + 1 } else { 1 };
         let (columns, rows) = (count(0), count(1));
@@ -58,6 +58,11 @@ impl ItemBuffer {
             }
         }
         buffer
+    }
+
+    /// Extent for which the grid is made [m].
+    pub(super) fn size(&self) -> f64 {
+        self.spacing * ACROSS
     }
 
     /// Visibility of `face`, which is the face of this index or a part of it.

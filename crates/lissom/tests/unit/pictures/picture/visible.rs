@@ -9,12 +9,15 @@ fn square(low: f64, high: f64, near: f64) -> Laid {
 #[test]
 fn nearer_faces_hide_others() {
     let faces = [square(0.0, 1.0, 0.0), square(0.2, 0.6, 1.0), square(0.3, 0.5, 0.5), square(0.7, 0.9, -1.0)];
-    let buffer = ItemBuffer::of(&faces, 1.0);
-    let seen: Vec<Seen> = (0..4).map(|k| buffer.seen(&faces[k], k)).collect();
-    assert_eq!(seen, [Seen::Partly, Seen::Wholly, Seen::Hidden, Seen::Hidden]);
-    // A part of the first that is not covered, and one that is.
-    assert_eq!(buffer.seen(&square(0.65, 0.95, 0.0), 0), Seen::Wholly);
-    assert_eq!(buffer.seen(&square(0.25, 0.55, 0.0), 0), Seen::Hidden);
+    // Of a model that travels a hundred times its size, too.
+    for size in [1.0, 100.0] {
+        let buffer = ItemBuffer::of(&faces, size);
+        let seen: Vec<Seen> = (0..4).map(|k| buffer.seen(&faces[k], k)).collect();
+        assert_eq!(seen, [Seen::Partly, Seen::Wholly, Seen::Hidden, Seen::Hidden]);
+        // A part of the first that is not covered, and one that is.
+        assert_eq!(buffer.seen(&square(0.65, 0.95, 0.0), 0), Seen::Wholly);
+        assert_eq!(buffer.seen(&square(0.25, 0.55, 0.0), 0), Seen::Hidden);
+    }
 }
 
 #[test]
