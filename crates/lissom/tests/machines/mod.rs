@@ -15,3 +15,4 @@ mod sensors;
 mod starts;
 mod to_urdf;
 mod touching;
+mod vehicles;
