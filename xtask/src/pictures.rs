@@ -19,19 +19,22 @@ use crate::verify;
 enum Instants {
     /// These [s].
     At(&'static [f64]),
+    /// These [s], of a model that travels in a plane, seen obliquely.
+    Oblique(&'static [f64]),
     /// So many at equal distances.
     Strip(usize),
     /// So many, one after the other.
     Moving(usize),
 }
 
-use Instants::{At, Moving, Strip};
+use Instants::{At, Moving, Oblique, Strip};
 
 /// Names of pictures in docs/images, examples, and their instants.
 const PICTURES: &[(&str, &str, Instants)] = &[
     ("belt-drive", "belt-drive", At(&[0.2])),
     ("boom", "shells/boom", At(&[0.3, 0.6, 1.0])),
     ("bridge-crossing", "bridge-crossing", Strip(4)),
+    ("car", "car", Oblique(&[2.4])),
     ("cam-follower", "cam-follower", At(&[0.02, 0.05])),
     ("computed-torque", "computed-torque", Strip(4)),
     ("conveyor", "contacts/conveyor", At(&[1.2])),
@@ -267,10 +270,11 @@ fn run_program(arguments: &[&str]) -> Result<(), PicturesError> {
 fn drawn(folder: &Path, chosen: &Instants) -> Result<Vec<u8>, PicturesError> {
     let found = ResultFolder::recorded(folder)?;
     let times = match *chosen {
-        At(times) => times.to_vec(),
+        At(times) | Oblique(times) => times.to_vec(),
         Strip(count) | Moving(count) => instants(&found.motion, count)?,
     };
-    let picture = Picture { times, view: View::Chosen, ..Picture::default() };
+    let view = if matches!(chosen, Oblique(_)) { View::Oblique } else { View::Chosen };
+    let picture = Picture { times, view, ..Picture::default() };
     if matches!(chosen, Moving(_)) {
         let model = (&found.scene, &found.motion, found.title.as_str());
         return Ok(picture.moving(model, (Format::Apng, DELAY))?);
