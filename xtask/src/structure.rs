@@ -398,7 +398,7 @@ mod tests {
     const MAX_CONSTANTS: usize = 468;
 
     /// The crates.
-    const CRATES: [&str; 14] = [
+    const CRATES: [&str; 15] = [
         "lissom-motion",
         "lissom-solver",
         "lissom-mechanics",
@@ -412,6 +412,7 @@ mod tests {
         "lissom",
         "lissom-cli",
         "lissom-fmi",
+        "lissom-units",
         "lissom-python",
     ];
 

@@ -29,6 +29,7 @@ mod snapshot;
 mod statics;
 mod study;
 mod sweep;
+mod units;
 mod view;
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The functions of FMI 3.0 for importers, with the names and types of its header. The only unsafe code of the project:
+//! The functions of FMI 3.0 for importers, with the names and types of its header. The only unsafe code of the crate:
 //! exported names must be unique in a process, which the standard guarantees, and pointers come from the importer, which
 //! guarantees by the standard that they are as declared in the header. Every pointer is checked for null, only the instance is
 //! retained, and no panic leaves a function.

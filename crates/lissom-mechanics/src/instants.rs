@@ -25,6 +25,12 @@ pub fn accumulated_tolerance(time: f64, elapsed: f64, duration: f64) -> f64 {
     tolerance(time, duration).max(accumulated.min(MAX_ACCUMULATED * duration))
 }
 
+/// Whether a sample is due at `time` [s], `elapsed` [s] after the first one.
+pub fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
+    let nearest = (elapsed / period).round() * period;
+    (elapsed - nearest).abs() <= tolerance(time, period)
+}
+
 #[cfg(test)]
 #[path = "../tests/unit/instants.rs"]
 mod tests;

@@ -9,7 +9,7 @@ use lissom::analyses::modes::ModeRequest;
 use lissom::analyses::{self, Analysis};
 use lissom::motion::MotionRecorder;
 use lissom::pictures::view::Results;
-use lissom::start::lower;
+use lissom::start::lower_with_units;
 use lissom::{Record, ResultFolder, Session, summary};
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;
@@ -54,7 +54,7 @@ pub(crate) fn animation(
     py.detach(|| {
         let document = model.document()?;
         NativeModel::in_time(&document)?;
-        let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
+        let mut lowered = lower_with_units(&document).map_err(|report| of_report(&report))?;
         lowered.settings.threads = crate::model::threads_or_all(threads).get();
         let bytes = Bytes::default();
         let recorder =
@@ -82,7 +82,7 @@ pub(crate) fn modes_animation(model: &NativeModel, py: Python<'_>, request: &str
     interruptible(py, move || {
         let document = model.document()?;
         let found = request.compute(&model.model).map_err(|error| of_analysis(&error))?;
-        let lowered = lower(&document).map_err(|report| of_report(&report))?;
+        let lowered = lower_with_units(&document).map_err(|report| of_report(&report))?;
         let scene = Scene::of(&document, &lowered.placed());
         let bytes = Bytes::default();
         let mut recorder = MotionRecorder::new(&lowered, None, bytes.clone());

@@ -15,7 +15,23 @@ mod simulation;
 mod sweep;
 mod watch;
 
+use std::path::PathBuf;
+
+use lissom::units;
 use pyo3::prelude::*;
+
+/// Serves a unit of another program in this process, until the simulation that started it has no more requests.
+#[pyfunction]
+fn serve_unit(py: Python<'_>) -> PyResult<()> {
+    // Units that contain Python need the interpreter.
+    Ok(py.detach(units::serve)?)
+}
+
+/// Sets the command that starts a process for a unit.
+#[pyfunction]
+fn set_unit_host(program: PathBuf, arguments: Vec<String>) {
+    units::set_host(program, arguments);
+}
 
 /// The compiled part of the package.
 #[pymodule]
@@ -34,5 +50,7 @@ fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(results::column_position, module)?)?;
     module.add_function(wrap_pyfunction!(results::read_folder, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::statistics, module)?)?;
+    module.add_function(wrap_pyfunction!(serve_unit, module)?)?;
+    module.add_function(wrap_pyfunction!(set_unit_host, module)?)?;
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::num::NonZero;
 use std::sync::{Arc, OnceLock};
 
 use lissom::pictures::picture::Camera;
-use lissom::start::lower;
+use lissom::start::lower_with_units;
 use lissom::{Document, Model, SessionError};
 use lissom_model::document::AnalysisKind;
 use pyo3::prelude::*;
@@ -24,7 +24,7 @@ pub(crate) struct NativeModel {
 impl NativeModel {
     pub(crate) fn checked(model: Model) -> PyResult<Self> {
         let document = model.document().map_err(|report| of_report(&report))?;
-        lower(&document).map_err(|report| of_report(&report))?;
+        lower_with_units(&document).map_err(|report| of_report(&report))?;
         Ok(Self { model, camera: OnceLock::new() })
     }
 

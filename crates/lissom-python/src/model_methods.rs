@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use lissom::core::consistent::Redundant;
 use lissom::core::consistent::mobility::mobility;
-use lissom::start::lower;
+use lissom::start::lower_with_units;
 use lissom::{Model, Override, Prepared, Record, Session, Stopped, Summary, summary};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -79,7 +79,7 @@ impl NativeModel {
     /// Sizes, degrees of freedom, redundant constraints and warnings.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let document = self.document()?;
-        let lowered = lower(&document).map_err(|report| of_report(&report))?;
+        let lowered = lower_with_units(&document).map_err(|report| of_report(&report))?;
         let freedom = mobility(&lowered.system, &lowered.state);
         let facts = PyDict::new(py);
         facts.set_item("title", &document.title)?;
@@ -166,7 +166,7 @@ impl NativeModel {
     /// A session at its start, or the reason for its absence; and the known contents of the summary.
     fn start(&self, threads: Option<NonZero<usize>>) -> PyResult<(Result<Session, PyErr>, Summary)> {
         let document = self.document()?;
-        let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
+        let mut lowered = lower_with_units(&document).map_err(|report| of_report(&report))?;
         Self::in_time(&document)?;
         lowered.settings.threads = threads_or_all(threads).get();
         let mut summary = summary::of_model(&self.model, &document, &lowered);

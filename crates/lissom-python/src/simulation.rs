@@ -422,24 +422,27 @@ impl Simulation {
     }
 
     /// Where the simulation is, as bytes that can be kept, sent and pickled.
-    pub(crate) fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+    ///
+    /// Raises `SolutionError` if a unit of another program cannot return its state.
+    pub(crate) fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = py.detach(|| {
             let inner = self.lock();
+            inner.session.simulation().check_snapshots().map_err(|error| solution(&error))?;
             let mut bytes = self.model.get().fingerprint().to_le_bytes().to_vec();
             let beginning = serde_json::to_vec(&inner.beginning).unwrap_or_default();
             bytes.extend((beginning.len() as u64).to_le_bytes());
             bytes.extend(beginning);
             bytes.extend(inner.session.snapshot().to_bytes());
-            bytes
-        });
-        PyBytes::new(py, &bytes)
+            Ok::<_, PyErr>(bytes)
+        })?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     /// Simulations are pickled as their model and a snapshot.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Pickled<'py>)> {
         let chosen = py.detach(|| self.lock_joints().names());
         let restored = self.model.bind(py).getattr("restored")?;
-        Ok((restored, (self.snapshot(py), chosen)))
+        Ok((restored, (self.snapshot(py)?, chosen)))
     }
 
     /// Restores the state of a snapshot of the same model; subsequent results are bitwise identical.

@@ -129,6 +129,7 @@ mod run;
 mod session;
 pub mod start;
 pub mod sweep;
+pub mod units;
 
 pub use analyses::buckling::buckling;
 pub use analyses::campbell::{CampbellRequest, campbell};

@@ -147,10 +147,11 @@ impl Model {
         Self { ids: Some(Arc::new(ids)), ..self }
     }
 
-    /// This model with known texts of included files, by path; no other file is read.
+    /// This model with known texts of included files, by path; no other file is read, except units of other programs.
     #[must_use]
     pub fn with_included(self, texts: BTreeMap<String, String>) -> Self {
-        Self { library: Arc::new(Library::of_texts(texts)), ..self }
+        let library = Library::of_texts(texts).with_units_beside(Path::new(&self.name));
+        Self { library: Arc::new(library), ..self }
     }
 
     /// This model with texts of files that it may include, by path, as returned by [`included`](Self::included) on another

@@ -9,7 +9,7 @@ use lissom::core::consistent::{Mobility, Redundant};
 use lissom::core::errors::Warning;
 use lissom::model::document::AnalysisKind;
 use lissom::model::lower::check_run;
-use lissom::start::{Lowered, lower};
+use lissom::start::{Lowered, lower_with_units};
 use lissom::{AnalysisWarning, Document, Report, Session};
 use serde_json::{Value, json};
 
@@ -44,7 +44,7 @@ impl Check {
         let (model, document) = self.model.read()?;
         show_warnings(&document);
         check_run(&document)?;
-        let lowered = lower(&document)?;
+        let lowered = lower_with_units(&document)?;
         varied_number(&model, &document)?;
         let freedom = mobility(&lowered.system, &lowered.state);
         terminal::print(&render(model.name(), &document, &lowered, &freedom));
@@ -75,7 +75,7 @@ impl Check {
             Ok(document) => document,
             Err(report) => return Ok(wrong(&report)),
         };
-        let lowered = match check_run(&document).and_then(|()| lower(&document)) {
+        let lowered = match check_run(&document).and_then(|()| lower_with_units(&document)) {
             Ok(lowered) => lowered,
             Err(report) => return Ok(wrong(&report)),
         };

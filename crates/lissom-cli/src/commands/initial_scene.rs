@@ -6,7 +6,7 @@ use lissom::model::document::AnalysisKind;
 use lissom::model::scene::Scene;
 use lissom::motion::MotionRecorder;
 use lissom::pictures::view::Notice;
-use lissom::start::{lower, warnings_of};
+use lissom::start::{lower_with_units, warnings_of};
 use lissom::{Override, Session};
 
 use super::model_arguments;
@@ -35,13 +35,13 @@ impl InitialScene {
         if !quiet {
             show_warnings(&document);
         }
-        let lowered = lower(&document)?;
+        let lowered = lower_with_units(&document)?;
         let scene = Scene::of(&document, &lowered.placed());
         let mut motion = Vec::new();
         let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
         // If the model starts from equilibrium, the initial state is the equilibrium.
         let start = if document.starts_in_equilibrium() {
-            let again = lower(&document)?;
+            let again = lower_with_units(&document)?;
             let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, &error))?;
             session.simulation().state().clone()
         } else {

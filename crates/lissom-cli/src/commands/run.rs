@@ -17,7 +17,7 @@ use lissom::model::lower::check_run;
 use lissom::model::output::CurveRecord;
 use lissom::model::scene::Scene;
 use lissom::motion::MotionRecorder;
-use lissom::start::{Assembly, Lowered, lower};
+use lissom::start::{Assembly, Lowered, lower_with_units};
 use lissom::{
     Checkpoint, CheckpointEvery, CheckpointFile, Diagnose, Document, FolderError, Model, Override, Progress,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
@@ -134,7 +134,7 @@ impl Run {
             AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
         }
         show_warnings(&document);
-        let mut lowered = check_run(&document).and_then(|()| lower(&document))?;
+        let mut lowered = check_run(&document).and_then(|()| lower_with_units(&document))?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
         let (folder, mut record) = task.open().map_err(unwritable)?;
@@ -158,6 +158,9 @@ impl Run {
                 return Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &kept));
             }
         };
+        if task.every.is_some() {
+            session.simulation().check_snapshots().map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        }
         session.cancel_by(interrupt.flag());
         let mut history = match &task.resumed {
             None => {

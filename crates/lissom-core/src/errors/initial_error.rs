@@ -153,6 +153,21 @@ diagnostics! {
             remedy: "check the forces on the unknown, and the units",
             meaning: "Initial accelerations are not finite.",
         }
+        /// A unit of another program cannot start.
+        Unit {
+            /// The unit.
+            unit: String,
+            /// What went wrong.
+            cause: String,
+            /// What to try.
+            remedy: String,
+        } => "unit-start" {
+            subject: Subject::new("unit", unit),
+            cause: ("the unit `{unit}` cannot start: {cause}"),
+            remedy: "{remedy}",
+            meaning: "A unit of another program could not be loaded or initialised.",
+            advice: "Run the unit alone in the program that made it.",
+        }
     }
     wraps {
         /// A signal is not finite.

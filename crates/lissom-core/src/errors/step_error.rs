@@ -384,6 +384,24 @@ diagnostics! {
             meaning: "Elimination stops at a vanishing pivot: a part is not constrained, or an equation is redundant.",
             advice: "Add a mass, a stiffness or a joint, or remove the redundant constraint.",
         }
+        /// A unit of another program failed.
+        Unit {
+            /// Time of the sample [s].
+            time: f64,
+            /// The unit.
+            unit: String,
+            /// What went wrong.
+            cause: String,
+            /// What to try.
+            remedy: String,
+        } => "unit-failed" {
+            time: *time,
+            subject: Subject::new("unit", unit),
+            cause: ("the unit `{unit}` failed in its step to t = {time} s: {cause}"),
+            remedy: "{remedy}",
+            meaning: "A unit of another program reported an error, ended, or did not answer.",
+            advice: "Run the unit alone in the program that made it, with the inputs of this instant.",
+        }
     }
     wraps {
         /// A signal is not finite.
@@ -408,6 +426,7 @@ impl StepError {
             Self::NotConverged { .. }
                 | Self::NotFinite { .. }
                 | Self::Signal(_)
+                | Self::Unit { .. }
                 | Self::FunctionNotFinite { .. }
                 | Self::TurnsTooFar { .. }
                 | Self::ElementTurns { .. }

@@ -110,6 +110,7 @@ impl Simulation {
             warnings,
             events,
             accumulation: Accumulation::default(),
+            units: super::units::AttachedUnits::default(),
         })
     }
 

@@ -128,6 +128,15 @@ impl Simulation {
         if self.totals.steps > 0 {
             return Ok(self.change_held_values(at)?);
         }
+        self.begin_with(at)?;
+        Ok(self.begin_units()?)
+    }
+
+    /// Begins again with the held values of `at`, before the first step.
+    ///
+    /// # Errors
+    /// If there are no consistent initial values; the state is then unchanged.
+    pub(super) fn begin_with(&mut self, at: Kinematics) -> Result<(), InitialError> {
         let mut state = self.state.clone();
         let (_, engages) = self.latches_switch(&at.held);
         state.kinematics = at;
@@ -143,7 +152,7 @@ impl Simulation {
         self.stops.history = SignalHistory::new(self.system.signals(), &state.kinematics);
         self.previous.clone_from(&state);
         self.state = state;
-        self.begin_contacts().map_err(InputError::Initial)
+        self.begin_contacts()
     }
 
     /// Whether a latch engages or disengages with these held values, and whether one engages.

@@ -23,6 +23,8 @@ mod signal_history;
 mod snapshot;
 pub(crate) mod snapshot_parts;
 mod stops;
+mod unit_samples;
+mod units;
 
 pub use crate::system::Need;
 pub(crate) use arc::ArcControl;
@@ -32,6 +34,7 @@ pub use newton_trial::NewtonTrial;
 pub use recovery::{Recovered, Recovery};
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use stops::Stops;
+pub use units::{Unit, UnitFault};
 
 use std::sync::Arc;
 
@@ -79,6 +82,8 @@ pub struct Simulation {
     pub(crate) held_values: Option<ConsistentInitialConditions>,
     /// Quantities that depend on the whole motion.
     pub(crate) accumulation: Accumulation,
+    /// Models of other programs.
+    pub(crate) units: units::AttachedUnits,
     pub(crate) monitors: Monitors,
     /// Warnings about the motion up to the state.
     pub(crate) warnings: Vec<Warning>,

@@ -34,11 +34,12 @@ impl Simulation {
     /// Samples the signals that are due now.
     pub(crate) fn take_samples(&mut self) -> Result<(), StepError> {
         let elapsed = self.now() - self.origin.kinematics.time;
-        let graph = self.system.signals();
-        if !graph.has_samples() {
+        if !self.system.signals().has_samples() {
             return Ok(());
         }
         let mut at = self.state.kinematics.clone();
+        self.advance_units(&mut at, elapsed)?;
+        let graph = self.system.signals();
         if self.system.has_readings() && graph.is_sample_due(at.time, elapsed) {
             for (held, value) in self.system.take_readings(&self.state) {
                 at.held[held.index()] = value;

@@ -14,7 +14,7 @@ use crate::diagnostics::diagnostics;
 use crate::energy_balance::EnergyBalance;
 use crate::errors::Warning;
 use crate::integrator::IntegratorHistory;
-use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
+use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion, Subject};
 use crate::newton::JacobianState;
 use crate::scaling::Scaled;
 use crate::settings::{Settings, Totals};
@@ -24,7 +24,7 @@ use crate::simulation::snapshot_parts::Learned;
 use crate::system::{State, Touch};
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 27;
+const VERSION: u32 = 28;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,8 @@ pub struct Snapshot {
     monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
     history: SignalHistory,
+    /// Samples that units have reached, and their states.
+    units: Vec<(u64, Option<Vec<u8>>)>,
 }
 
 /// State of the integrator: the tangent in use and the memory of the scheme.
@@ -88,6 +90,29 @@ diagnostics! {
             cause: ("the snapshot is damaged"),
             remedy: "run the model again",
             meaning: "A snapshot cannot be read, or its tangent cannot be factored again.",
+        }
+        /// A unit cannot return its state.
+        Unit {
+            /// The unit.
+            unit: String,
+        } => "snapshot-of-unit" {
+            subject: Subject::new("unit", unit),
+            cause: ("the state of the unit `{unit}` cannot be stored or copied"),
+            remedy: "run without checkpoints, or use a unit with `canSerializeFMUState`",
+            meaning: "A snapshot of a model with a unit of another program contains the state of the unit, which not all units can return. \
+                Copies of a session have no unit of their own.",
+        }
+        /// A unit does not accept a state.
+        UnitRestore {
+            /// The unit.
+            unit: String,
+            /// Why not.
+            reason: String,
+        } => "snapshot-rejected-by-unit" {
+            subject: Subject::new("unit", unit),
+            cause: ("the unit `{unit}` cannot return to its stored state: {reason}"),
+            remedy: "run the model again",
+            meaning: "A unit of another program rejects a state that it has returned before.",
         }
     }
 }
@@ -212,6 +237,7 @@ impl Simulation {
             monitors: self.monitors.save(),
             learned: self.integrator.work.learned(),
             history: self.stops.history.clone(),
+            units: self.units.save(),
         }
     }
 
@@ -231,6 +257,7 @@ impl Simulation {
                 found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
             });
         }
+        self.restore_units(&from.units)?;
         let is_read = self.integrator.work.restore(&self.system, &from.learned).is_ok()
             && self.control.restore(&from.control)
             && self.monitors.restore(&from.monitors);

@@ -106,6 +106,21 @@ pub struct Sampling {
     pub period: f64,
 }
 
+/// Held values that are exchanged with a unit: a model of another program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnitPorts {
+    /// Name of the unit.
+    pub name: String,
+    /// Time from sample to sample, from the start of the simulation [s].
+    pub period: f64,
+    /// Inputs: samples of signals.
+    pub inputs: Vec<DiscreteValueId>,
+    /// Outputs, which are among the readings.
+    pub outputs: Vec<DiscreteValueId>,
+    /// Names of the outputs.
+    pub output_names: Vec<String>,
+}
+
 /// A signal of a system.
 #[derive(Clone, Debug)]
 pub struct Signal {
@@ -156,6 +171,8 @@ pub struct Graph {
     pub held: Vec<(String, f64)>,
     /// Held values that are quantities of the state at samples.
     pub readings: Vec<DiscreteValueId>,
+    /// Units of other programs.
+    pub units: Vec<UnitPorts>,
     /// Delayed signals.
     pub delays: Vec<delay::Delay>,
     /// Events.
@@ -195,9 +212,15 @@ impl Graph {
         self.signals.iter().rposition(is_named).map(SignalId::new)
     }
 
-    /// Whether any signal is sampled.
+    /// Whether any signal is sampled, or a unit is advanced at samples.
     pub fn has_samples(&self) -> bool {
-        self.signals.iter().any(|signal| signal.sampling.is_some())
+        self.periods().next().is_some()
+    }
+
+    /// Periods of sampled signals and units [s].
+    fn periods(&self) -> impl Iterator<Item = f64> + '_ {
+        let of_signals = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
+        of_signals.chain(self.units.iter().map(|unit| unit.period))
     }
 
     /// Calls `with` with the values of all signals at a configuration, continued from the sides of their switches.
@@ -407,8 +430,7 @@ impl Graph {
 
     /// Whether a sample is due at `time` [s], `elapsed` [s] after the start.
     pub fn is_sample_due(&self, time: f64, elapsed: f64) -> bool {
-        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
-        periods.into_iter().any(|period| is_due(time, elapsed, period))
+        self.periods().any(|period| instants::is_due(time, elapsed, period))
     }
 
     /// Sets sampled signals to their values before the first sample.
@@ -429,7 +451,9 @@ impl Graph {
         let mut values = vec![0.0; self.signals.len()];
         for (id, signal) in SignalId::enumerate(&self.signals) {
             values[id.index()] = match signal.sampling {
-                Some(Sampling { held, period }) if !is_due(at.time, elapsed, period) => at.held[held.index()],
+                Some(Sampling { held, period }) if !instants::is_due(at.time, elapsed, period) => {
+                    at.held[held.index()]
+                }
                 _ => self.compute(id, at, &values, self.sides(id, at)),
             };
         }
@@ -472,8 +496,7 @@ impl Graph {
 
     /// For each sampled signal, the sampling instant that is nearest to `time` [s].
     pub fn nearest_samples(&self, origin: f64, time: f64) -> impl Iterator<Item = f64> + '_ {
-        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
-        periods.map(move |period| origin + ((time - origin) / period).round().max(0.0) * period)
+        self.periods().map(move |period| origin + ((time - origin) / period).round().max(0.0) * period)
     }
 
     /// The first instant after `time` [s] at which a sample is due, if the first samples are taken at `origin` [s].
@@ -482,15 +505,8 @@ impl Graph {
             let aside = instants::tolerance(time, period);
             origin + (((time - origin + aside) / period).floor() + 1.0) * period
         };
-        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
-        periods.map(next).min_by(f64::total_cmp)
+        self.periods().map(next).min_by(f64::total_cmp)
     }
-}
-
-/// Whether a sample is due at `time` [s], `elapsed` [s] after the first one.
-fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
-    let nearest = (elapsed / period).round() * period;
-    (elapsed - nearest).abs() <= instants::tolerance(time, period)
 }
 
 /// Calls `with` with the arguments of a function, all zero: most functions have few, and to clear all is as expensive as a short

@@ -209,6 +209,13 @@ fn at_rest(context: &Context<'_>, document: &Document) {
         context.fail::<()>(load.name.span, message, "use an analysis of kind `statics` or `dynamics`");
     }
     let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    let moves = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
+    if let Some(unit) = document.units.first().filter(|_| !moves || document.starts_in_equilibrium()) {
+        let what = if moves { "a start from equilibrium" } else { document.analysis.kind.name() };
+        let message =
+            format!("{what} has no sampling times, so the unit `{}` has no outputs", unit.name.value);
+        context.fail::<()>(unit.name.span, message, "remove it, or use an analysis of kind `dynamics`");
+    }
     let what = match document.analysis.kind {
         AnalysisKind::Statics { .. } => "statics",
         AnalysisKind::Path { .. } => "an equilibrium path",
@@ -261,6 +268,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("signals", document.signals.len()),
         ("states", document.states.len()),
         ("events", document.events.len()),
+        ("units", document.units.len()),
     ];
     for (table, count) in read {
         let names = context.names(table);

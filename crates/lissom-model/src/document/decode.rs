@@ -12,7 +12,7 @@ use super::entries::PARTS;
 use super::tables::variants;
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, elastic_solids, events,
-    ground, initial, local_loads, materials, outputs, ports, shells, signals, superelements,
+    ground, initial, local_loads, materials, outputs, ports, shells, signals, superelements, units,
 };
 use crate::expression;
 use crate::files::library::Library;
@@ -105,6 +105,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let signals = signals::signals(context);
     let states = signals::states(context);
     let events = events::events(context);
+    let units = units::units(context);
     let (initial, initial_of_parts) = initial::initial(context);
     let assembly = assembly::assembly(context);
     if let Some((_, span)) = context.top("assembly").filter(|_| assembly.is_none()) {
@@ -135,6 +136,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         signals,
         states,
         events,
+        units,
         initial,
         initial_of_parts,
         assembly,

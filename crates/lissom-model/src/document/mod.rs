@@ -31,6 +31,7 @@ mod solids;
 mod superelements;
 pub(crate) mod tables;
 mod temperatures;
+mod units;
 mod unloaded;
 
 use std::borrow::Cow;
@@ -72,6 +73,7 @@ pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, Loca
 pub(crate) use shells::area_arguments;
 pub use shells::{AreaLoad, Layer, Shell};
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
+pub use units::UnitEntry;
 
 /// A model as it was written, checked.
 ///
@@ -141,6 +143,8 @@ pub struct Document {
     pub states: Vec<StateEntry>,
     /// Actions when expressions cross zero.
     pub events: Vec<EventEntry>,
+    /// Co-simulation units of other programs.
+    pub units: Vec<UnitEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
     /// Rigid motions at the start of parts that move otherwise, by the names of bodies, point masses and beams.

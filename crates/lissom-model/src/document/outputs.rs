@@ -99,7 +99,11 @@ fn name_of_one(reader: &Reader<'_, '_>, tables: &[&str], what: &str) -> Option<L
     let known = || tables.iter().flat_map(|table| reader.context.names(table)).map(|(name, _)| name);
     let scope = reader.node("of")?.scope;
     let exists = |full: &str| tables.iter().any(|table| reader.context.has(table, full));
-    if let Some(full) = reader.context.resolve(name.value, scope, &exists) {
+    let is_of_unit = |full: &str| {
+        let owner = full.rsplit_once('.').map(|(owner, _)| owner);
+        tables[0] == "signals" && owner.is_some_and(|owner| reader.context.has("units", owner))
+    };
+    if let Some(full) = reader.context.resolve(name.value, scope, &|full| exists(full) || is_of_unit(full)) {
         return Some(Located::new(full, name.span));
     }
     let message =

@@ -58,6 +58,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "contacts" => return super::contacts::variants(),
         "states" => (None, vec![single(state())]),
         "events" => (None, vec![single(super::events::keys())]),
+        "units" => (None, vec![single(super::units::keys())]),
         "initial" => (None, vec![single(initial())]),
         "assembly" => (None, vec![single(super::assembly::keys())]),
         "outputs" => (Some("kind"), outputs()),

@@ -1,7 +1,7 @@
 //! The texts that a model includes, and its data files: read once and shared by all their uses. Independent of their
 //! format.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -39,18 +39,29 @@ pub struct Library {
     found: Mutex<BTreeMap<String, Found>>,
     surfaces: Mutex<BTreeMap<String, FoundSurface>>,
     winds: Mutex<BTreeMap<String, FoundWind>>,
+    /// Where units are, also if all texts are known.
+    unit_folder: Option<PathBuf>,
+    /// Paths of units.
+    units: Mutex<BTreeSet<String>>,
 }
 
 impl Library {
     /// Texts in the folder of the file `model`.
     pub fn beside(model: &Path) -> Self {
         let folder = model.parent().map(Path::to_owned).unwrap_or_default();
-        Self { folder: Some(folder), ..Self::default() }
+        Self { unit_folder: Some(folder.clone()), folder: Some(folder), ..Self::default() }
     }
 
     /// Texts in the folder of the file `model`, some of which were read before, by their paths.
     pub fn beside_with(model: &Path, texts: impl IntoIterator<Item = (String, String)>) -> Self {
-        Self { folder: Self::beside(model).folder, ..Self::of_texts(texts) }
+        let Self { folder, unit_folder, .. } = Self::beside(model);
+        Self { folder, unit_folder, ..Self::of_texts(texts) }
+    }
+
+    /// These texts, with units in the folder of the file `model`.
+    #[must_use]
+    pub fn with_units_beside(self, model: &Path) -> Self {
+        Self { unit_folder: Self::beside(model).unit_folder, ..self }
     }
 
     /// Texts that were read before, by their paths; no file is looked for.
@@ -163,6 +174,17 @@ impl Library {
         wind
     }
 
+    /// Where the unit at `path` is, which `joined` has made.
+    pub(crate) fn unit(&self, path: &str) -> Result<PathBuf, Missing> {
+        let Some(folder) = &self.unit_folder else {
+            let message = format!("`{path}` was not among the files of the model");
+            let help = "models with units are run beside their files".to_owned();
+            return Err(Missing { message, help: Some(help) });
+        };
+        self.units.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_owned());
+        Ok(folder.join(path))
+    }
+
     /// All texts that were read so far, by their paths.
     pub fn texts(&self) -> BTreeMap<String, String> {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -180,7 +202,8 @@ impl Library {
         let file = |path: &String| {
             path.split_once(".npz#").map_or_else(|| path.clone(), |(own, _)| format!("{own}.npz"))
         };
-        let drawn = surfaces.keys().chain(winds.keys());
+        let units = self.units.lock().unwrap_or_else(PoisonError::into_inner);
+        let drawn = surfaces.keys().chain(winds.keys()).chain(units.iter());
         let is_file = |path: &&String| !path.starts_with(ready_made::PREFIX) && !path.ends_with('#');
         let mut files: Vec<PathBuf> =
             found.keys().chain(drawn).filter(is_file).map(|path| folder.join(file(path))).collect();

@@ -31,7 +31,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 27] = [
+pub(crate) static TOP: [Top; 28] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top(
@@ -96,6 +96,12 @@ pub(crate) static TOP: [Top; 27] = [
         "First-order states: numbers whose time derivative is an expression.",
     ),
     top("events", Holds::Entries, false, "Actions when expressions cross zero."),
+    top(
+        "units",
+        Holds::Entries,
+        false,
+        "Co-simulation units (FMI) of other programs, advanced from sample to sample.",
+    ),
     top(
         "initial",
         Holds::Table,
@@ -162,6 +168,7 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "signals" => "signal",
         "states" => "state",
         "events" => "event",
+        "units" => "unit",
         "parameters" => "parameter",
         "parts" => "part",
         _ => "entry",

@@ -7,7 +7,7 @@ use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::coordinate::{Coordinate, Of};
 use lissom_mechanics::signals::event::Event;
-use lissom_mechanics::signals::{Argument, Sampling, Signal, SignalId};
+use lissom_mechanics::signals::{Argument, Sampling, Signal, SignalId, UnitPorts};
 use lissom_system::Builder;
 
 use super::delay;
@@ -17,7 +17,7 @@ use super::names::Names;
 use super::order::by_name;
 use super::over_argument::OverArgument;
 use super::signal_references::NamedComponent;
-use crate::document::{Document, EventEntry, SignalEntry};
+use crate::document::{Document, EventEntry, SignalEntry, UnitEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
 use crate::format::suggest;
 use crate::outputs::channel_components::coordinate_components;
@@ -35,6 +35,13 @@ pub(super) fn add(
     for (name, value) in by_name(&document.inputs, |(name, _)| &name.value) {
         let held = builder.add_held(&name.value, *value);
         names.signals.insert(name.value.clone(), Argument::Held(held));
+    }
+    for unit in by_name(&document.units, |unit| &unit.name.value) {
+        for (output, _) in &unit.outputs {
+            let name = unit.output_name(output);
+            let held = builder.add_reading(&name);
+            names.signals.insert(name, Argument::Held(held));
+        }
     }
     let mut states = Vec::new();
     let sorted_states = by_name(&document.states, |state| &state.name.value);
@@ -94,11 +101,50 @@ pub(super) fn add(
             Err(problem) => problems.push(problem),
         }
     }
+    for unit in by_name(&document.units, |unit| &unit.name.value) {
+        if let Err(problem) = add_unit(document, builder, names, unit) {
+            problems.push(problem);
+        }
+    }
     for event in by_name(&document.events, |event| &event.name.value) {
         if let Err(problem) = add_event(document, builder, names, event) {
             problems.push(problem);
         }
     }
+}
+
+/// Adds a unit with its inputs, which are sampled after all signals.
+fn add_unit(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    unit: &UnitEntry,
+) -> Result<(), Problem> {
+    let mut inputs = Vec::new();
+    for (variable, expression) in &unit.inputs {
+        let subject =
+            Subject::new("unit", &unit.name.value).component(&format!("`inputs.{}`", variable.value));
+        let reader = Reader { subject: &subject, expression, is_sampled: true, own_sample: None };
+        let (signal, _) = formula(document, builder, names, &reader)?;
+        let held = builder.add_held(&subject.to_string(), 0.0);
+        let sampling = Some(Sampling { held, period: unit.sample });
+        builder
+            .add_signal(Signal { sampling, ..signal })
+            .map_err(|error| Problem::error(expression.span, error.to_string()))?;
+        inputs.push(held);
+    }
+    let held = |output: &String| match names.signals.get(&unit.output_name(output)) {
+        Some(&Argument::Held(held)) => Some(held),
+        _ => None,
+    };
+    builder.add_unit(UnitPorts {
+        name: unit.name.value.clone(),
+        period: unit.sample,
+        inputs,
+        outputs: unit.outputs.iter().filter_map(|(output, _)| held(output)).collect(),
+        output_names: unit.outputs.iter().map(|(output, _)| output.clone()).collect(),
+    });
+    Ok(())
 }
 
 fn add_event(
@@ -335,6 +381,12 @@ fn resolve(
             (message, format!("add `sample` to `{owner}`"))
         };
         return Err(problem(message).help(help));
+    }
+    if let Some(unit) = document.units.iter().find(|unit| unit.name.value == owner) {
+        let help = suggest::help(component, unit.outputs.iter().map(|(output, _)| output.as_str()));
+        let help =
+            help.unwrap_or_else(|| format!("add it to `outputs` of the unit: {component} = \"VARIABLE\""));
+        return Err(problem(format!("the unit `{owner}` has no output `{component}`")).help(help));
     }
     if let Some(of) = outputs_of_signals(document, owner) {
         let output = &of.name.value;

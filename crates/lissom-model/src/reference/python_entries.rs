@@ -23,7 +23,7 @@ const FILES: [(&str, &str, &[&str]); 10] = [
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),
     ("loads", "Applied forces and moments, and those of actuators.", &["loads", "local_loads"]),
     ("contacts", "Parts that may touch, and the solids that are fixed in space.", &["contacts", "ground"]),
-    ("feedback", "First-order states and events.", &["states", "events"]),
+    ("feedback", "First-order states, events, and units of other programs.", &["states", "events", "units"]),
     ("motions", "How the parts are and move at the start.", &["initial"]),
     ("outputs", "What is recorded, one class per kind.", &["outputs"]),
     ("analyses", "Kind of analysis and its settings.", &["analysis"]),

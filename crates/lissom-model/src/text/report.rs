@@ -135,7 +135,7 @@ impl Problem {
     }
 
     /// Adds a remedy, if there is one.
-    pub(crate) fn maybe_help(mut self, help: Option<String>) -> Self {
+    pub fn maybe_help(mut self, help: Option<String>) -> Self {
         self.help = help.or(self.help);
         self
     }

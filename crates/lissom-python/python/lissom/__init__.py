@@ -8,10 +8,13 @@
 All quantities are in SI units. Exceptions are `ModelError` and `SolutionError`, with the texts of the command line.
 """
 
+import sys
+from pathlib import Path
+
 from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Reduced, Response
 from ._animation import Animation
 from ._linear import LinearModel, StateSpace
-from ._lissom import Batch, LissomError, ModelError, Simulation, SolutionError, __version__
+from ._lissom import Batch, LissomError, ModelError, Simulation, SolutionError, __version__, set_unit_host
 from ._model import Model, ModelWarning, load, loads
 from ._result import Result, read
 from ._sweep import SolutionWarning, SweepTable, sweep
@@ -45,3 +48,8 @@ __all__ = [
     "read",
     "sweep",
 ]
+
+# Units of other programs run in processes of their own: this interpreter again, with this package.
+_SERVE = "import sys; sys.path.insert(0, sys.argv[1]); from lissom._lissom import serve_unit; serve_unit()"
+if sys.executable:
+    set_unit_host(sys.executable, ["-c", _SERVE, str(Path(__file__).resolve().parent.parent)])

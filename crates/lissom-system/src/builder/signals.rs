@@ -18,7 +18,9 @@ use lissom_mechanics::signals::delay::{Delay, Past, Piece, window_size};
 use lissom_mechanics::signals::event::Event;
 use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of::Position};
 use lissom_mechanics::signals::measurement::{Component, Measurement};
-use lissom_mechanics::signals::{Argument, DiscreteValueId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
+use lissom_mechanics::signals::{
+    Argument, DiscreteValueId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId, UnitPorts,
+};
 
 impl Builder {
     /// Adds a held value, an input or the last sample of a signal, with its initial value.
@@ -32,6 +34,11 @@ impl Builder {
         let held = self.add_held(name, 0.0);
         self.graph.readings.push(held);
         held
+    }
+
+    /// Adds a unit of another program; its outputs must have been added as readings.
+    pub fn add_unit(&mut self, unit: UnitPorts) {
+        self.graph.units.push(unit);
     }
 
     /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with

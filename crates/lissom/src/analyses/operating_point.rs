@@ -1,6 +1,6 @@
 //! States about which a model is linearised: the positions of the file, static equilibrium, an instant of a run.
 
-use crate::start::{Lowered, lower};
+use crate::start::{Lowered, lower, reject_units};
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::linearized::{LinearModel, steady, steady_on_average};
@@ -260,6 +260,7 @@ fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesErro
     if is_static {
         document.analysis.tolerance = document.analysis.tolerance.min(TOLERANCE);
     }
+    reject_units(&document)?;
     let mut session = Session::new(&document)?;
     session.step_to(time)?;
     where_it_stands(&session, &document, hand)

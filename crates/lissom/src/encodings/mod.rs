@@ -4,3 +4,5 @@ pub(crate) mod archive;
 pub(crate) mod npy;
 pub(crate) mod parquet;
 pub mod sealed;
+pub(crate) mod tags;
+pub(crate) mod unarchive;

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::start::{Assembly, Brought, Lowered, MovedPart, lower, warnings_of};
+use crate::start::{Assembly, Brought, Lowered, MovedPart, lower_with_units, warnings_of};
 use lissom_core::assembly::Gap;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::elements::Energy;
@@ -39,7 +39,7 @@ pub fn of_request(analysis: &str, model: &Model, document: &Document) -> Summary
     insert("set", of_overrides(model));
     insert("stopped", json!("failed"));
     if document.assembly.is_some()
-        && let Ok(Lowered { assembly: Some(assembly), .. }) = lower(document)
+        && let Ok(Lowered { assembly: Some(assembly), .. }) = lower_with_units(document)
     {
         insert("assembly", of_assembly(&assembly));
     }

@@ -23,7 +23,7 @@ use lissom_core::instants;
 use lissom_core::settings::StepReport;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
-use lissom_core::simulation::{InputError, Simulation};
+use lissom_core::simulation::{InputError, Simulation, UnitFault};
 use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::document::OutputKind;
@@ -157,11 +157,22 @@ impl Session {
             accumulated,
             names,
             warnings,
+            units,
             ..
         } = lowered;
+        let origin = state.kinematics.time;
         let schedule = Schedule::new(plan, settings.step_size);
         let mut simulation = Simulation::new(system, state, settings)?;
         simulation.accumulate(accumulated);
+        let begun = units.iter().zip(&simulation.system().signals().units).map(|(unit, ports)| {
+            unit.start(origin).map_err(|UnitFault { cause, remedy }| InitialError::Unit {
+                unit: ports.name.clone(),
+                cause,
+                remedy,
+            })
+        });
+        let begun: Vec<_> = begun.collect::<Result<_, _>>()?;
+        simulation.attach_units(begun)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
         let mut timings = Timings::new();
         timings.start = began.elapsed();

@@ -3,7 +3,7 @@
 use lissom_core::diagnostics::Diagnose;
 use std::sync::Arc;
 
-use crate::start::{Lowered, lower};
+use crate::start::{Lowered, lower_with_units};
 use lissom_core::errors::InitialError;
 use lissom_core::kinematics::Kinematics;
 use lissom_core::system::{State, System};
@@ -83,7 +83,7 @@ impl Prepared {
         if !matches!(kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
             return Err(SessionError::NotInTime(kind.name()));
         }
-        Ok(Self { lowered: lower(document)?, ids })
+        Ok(Self { lowered: lower_with_units(document)?, ids })
     }
 
     pub(crate) fn lowered(&self) -> &Lowered {

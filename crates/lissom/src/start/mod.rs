@@ -23,6 +23,8 @@ use lissom_model::{Problem, Remark, Report};
 
 pub use assembly::{Assembly, Brought, MovedPart};
 
+use crate::units::{self, ReadUnit};
+
 /// A model ready to run. Copies share the system.
 #[derive(Clone)]
 pub struct Lowered {
@@ -48,6 +50,8 @@ pub struct Lowered {
     pub warnings: Vec<Warning>,
     /// Result of the assembly, if requested.
     pub assembly: Option<Assembly>,
+    /// Units of other programs, in the order of the graph of signals.
+    pub units: Vec<ReadUnit>,
     /// Nodes that assemblies leave where they are.
     fixed: Vec<NodeId>,
 }
@@ -78,12 +82,33 @@ impl Lowered {
     }
 }
 
-/// Makes the system a document describes.
+/// Makes the system a document describes, for analyses of the system alone: without units of other programs, whose outputs are
+/// unknown to them.
+///
+/// # Errors
+/// All problems found, underlined in the model's text, and units.
+pub fn lower(document: &Document) -> Result<Lowered, Report> {
+    lower_locked(document, &[])
+}
+
+/// Makes the system a document describes, for a simulation in time.
 ///
 /// # Errors
 /// All problems found, underlined in the model's text.
-pub fn lower(document: &Document) -> Result<Lowered, Report> {
-    lower_locked(document, &[])
+pub fn lower_with_units(document: &Document) -> Result<Lowered, Report> {
+    lower_of(document, &[])
+}
+
+/// Rejects units where their outputs would be missing, which depend on the past of a simulation.
+///
+/// # Errors
+/// If the model has a unit.
+pub(crate) fn reject_units(document: &Document) -> Result<(), Report> {
+    document.units.first().map_or(Ok(()), |unit| {
+        let message = format!("the unit `{}` has outputs only in a simulation in time", unit.name.value);
+        let help = "replace its outputs by inputs, signals or states of this model for this command";
+        Err(document.report(vec![Problem::error(unit.name.span, message).help(help)]))
+    })
 }
 
 /// Makes the system that a document describes, with all degrees of freedom of some nodes locked.
@@ -91,6 +116,11 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
 /// # Errors
 /// As [`lower`].
 pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
+    reject_units(document)?;
+    lower_of(document, locked)
+}
+
+fn lower_of(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
     let rejected = |problem: Problem| document.report(vec![problem]);
     let mut built = build(document, locked)?;
     let (settings, plan) = settings(document).map_err(rejected)?;
@@ -115,6 +145,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     warnings.extend(immobile::immobile(document, &system, &state));
+    let units = units::read(document, system.signals().units.iter().map(|unit| unit.name.as_str()))?;
     let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
     Ok(Lowered {
         system: Arc::new(system),
@@ -128,6 +159,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         names,
         warnings,
         assembly,
+        units,
         fixed,
     })
 }

@@ -45,7 +45,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::start::lower;
+use crate::start::lower_with_units;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::registry::registry;
 use lissom_model::output::Column;
@@ -142,7 +142,7 @@ impl Sweep {
         let mut first = None;
         for member in 0..file.len() {
             let document = text.document(&registry, &file.overrides(member));
-            let lowered = document.and_then(|document| Ok((lower(&document)?, document)));
+            let lowered = document.and_then(|document| Ok((lower_with_units(&document)?, document)));
             let (lowered, document) = match lowered {
                 Ok(found) => found,
                 Err(report) => {

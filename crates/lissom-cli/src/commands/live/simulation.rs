@@ -13,7 +13,7 @@ use lissom::model::document::AnalysisKind;
 use lissom::model::scene::Scene;
 use lissom::motion::MotionRecorder;
 use lissom::pictures::view::{Notice, Results};
-use lissom::start::lower;
+use lissom::start::lower_with_units;
 use lissom::{Document, FileError, Model, Override, Record, Session, Writer, summary};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -237,7 +237,7 @@ fn results(model: &Model, is_current: &dyn Fn() -> bool) -> Result<Option<Result
             return Err(Notice::error(text));
         }
     }
-    let lowered = lower(&document).map_err(|report| wrong(&report))?;
+    let lowered = lower_with_units(&document).map_err(|report| wrong(&report))?;
     let scene = Scene::of(&document, &lowered.placed());
     let mut summary = summary::of_model(model, &document, &lowered);
     let motion = Buffer::default();

@@ -7,7 +7,7 @@ are words of Python get a line below: `from_`, `in_`. Wherever a number stands a
 from . import analyses, contacts, feedback, joints, loads, motions, outputs, parts, sections, springs
 from ._entry import Entry
 from .contacts import Contact, Ground
-from .feedback import Event, State
+from .feedback import Event, State, Unit
 from .motions import Initial, PartMotion
 from .parts import Beam, Body, Part, PointMass
 from .sections import Material
@@ -25,6 +25,7 @@ __all__ = [
     "PartMotion",
     "PointMass",
     "State",
+    "Unit",
     "analyses",
     "contacts",
     "feedback",

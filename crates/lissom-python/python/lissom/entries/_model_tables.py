@@ -13,7 +13,7 @@ from .joints import Joint
 from .springs import Spring
 from .loads import Load, LocalLoad
 from .contacts import Contact, Ground
-from .feedback import State, Event
+from .feedback import State, Event, Unit
 from .motions import Initial
 from .outputs import Output
 from .analyses import Analysis
@@ -96,6 +96,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "contacts": contacts.Contact,
     "states": feedback.State,
     "events": feedback.Event,
+    "units": feedback.Unit,
     "initial": motions.Initial,
     "outputs": {
         "position": outputs.Position,
@@ -168,6 +169,7 @@ ORDER = (
     "signals",
     "states",
     "events",
+    "units",
     "initial",
     "assembly",
     "outputs",
@@ -409,6 +411,16 @@ class ModelTables(ModelTree):
     @events.setter
     def events(self, of: dict[str, Event]) -> None:
         self._set("events", of)
+
+    @property
+    def units(self) -> dict[str, Unit]:
+        """Co-simulation units (FMI) of other programs, advanced from sample to sample."""
+        of: dict[str, Unit] = self._table("units")
+        return of
+
+    @units.setter
+    def units(self, of: dict[str, Unit]) -> None:
+        self._set("units", of)
 
     @property
     def initial(self) -> Initial | None:

@@ -1,5 +1,5 @@
 # Made by `cargo xtask reference` of the program's own tables: do not edit.
-"""First-order states and events."""
+"""First-order states, events, and units of other programs."""
 
 from __future__ import annotations
 
@@ -43,3 +43,26 @@ class Event(Entry):
     direction: Literal["both", "rising", "falling"] | None = None
     stop: bool | None = None
     set: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Unit(Entry):
+    """Co-simulation units (FMI) of other programs, advanced from sample to sample.
+
+    Args:
+        file: the unit, a file `.fmu`; path relative to this file; a text.
+        sample: time from sample to sample: the step of the unit, over which inputs and outputs are constant [s]; a number > 0.
+        inputs: input variables of the unit, with expressions of their values at samples; a table, or nothing.
+        outputs: output variables of the unit: `y = "VARIABLE"` is `unit.y` in expressions; a table, or nothing.
+        parameters: start values of variables of the unit, numbers; a table, or nothing.
+        timeout: real time after which a unit that does not answer has failed; default 60 [s]; a number > 0, or nothing.
+    """
+
+    _table: ClassVar[str] = "units"
+
+    file: str
+    sample: Number
+    inputs: Table | None = None
+    outputs: Table | None = None
+    parameters: Table | None = None
+    timeout: Number | None = None

@@ -277,6 +277,7 @@ class Part(Entry):
         signals: Named expressions of time, inputs, states and outputs; entries as in `[signals]`, or nothing.
         states: First-order states: numbers whose time derivative is an expression; entries as in `[states]`, or nothing.
         events: Actions when expressions cross zero; entries as in `[events]`, or nothing.
+        units: Co-simulation units (FMI) of other programs, advanced from sample to sample; entries as in `[units]`, or nothing.
         outputs: Quantities to be recorded; entries as in `[outputs]`, or nothing.
     """
 
@@ -309,4 +310,5 @@ class Part(Entry):
     signals: Tables | None = None
     states: Tables | None = None
     events: Tables | None = None
+    units: Tables | None = None
     outputs: Tables | None = None

@@ -19,6 +19,7 @@ use crate::analyses::modes::{ModesError, Reliable, in_rotation};
 use crate::analyses::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model_text::Model;
+use crate::start::reject_units;
 
 /// Modes with a smaller likeness of shapes do not belong to one line.
 const ALIKE: f64 = 0.3;
@@ -299,6 +300,7 @@ impl Search<'_> {
     ) -> Result<Point, CampbellError> {
         let path = &self.request.vary.path;
         let document = self.model.with(path, value).document().map_err(CampbellError::Model)?;
+        reject_units(&document).map_err(CampbellError::Model)?;
         let failed = |error| CampbellError::Modes { path: path.clone(), value, error: Box::new(error) };
         let count = self.request.count;
         let mut doubts = Vec::new();

@@ -22,6 +22,7 @@ use crate::analyses::interface::{Analysis, AnalysisError, AnalysisReport, Origin
 use crate::command_error::CommandError;
 use crate::model_text::Model;
 use crate::session::{Session, SessionError};
+use crate::start::reject_units;
 pub use confirmation::Confirmation;
 use confirmation::{DirectDerivative, confirm};
 use method::{ParameterSensitivities, Question};
@@ -270,6 +271,7 @@ pub fn gradient(
     confirms: bool,
 ) -> Result<GradientReport, GradientError> {
     let document = prepared(model, target)?;
+    reject_units(&document)?;
     let mut session = Session::new(&document)?;
     let system = session.simulation().system();
     let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
@@ -372,6 +374,7 @@ fn run(
     {
         control.relative_tolerance = control.relative_tolerance.min(tolerance);
     }
+    reject_units(&document)?;
     let mut session = Session::new(&document)?;
     let mut history = OutputHistory::new(target.measure);
     let mut nothing = |_| Vec::new();

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::start::{Lowered, lower};
+use crate::start::{Lowered, lower_with_units};
 use lissom_model::component_position;
 use lissom_model::lower::{Plan, Records};
 use lissom_model::output::Record;
@@ -24,7 +24,7 @@ pub(super) fn with_step(model: &Model, step: &str) -> Model {
 /// The model with time steps of `step`, as written. Newton's iteration has `tolerance`, unless the user sets one or
 /// the model has a smaller one: the iteration error must be below the measured error.
 pub(super) fn prepared(model: &Model, step: &str, tolerance: f64) -> Result<Lowered, StudyError> {
-    let mut lowered = lower(&with_step(model, step).document()?)?;
+    let mut lowered = lower_with_units(&with_step(model, step).document()?)?;
     if lowered.plan.is_static {
         return Err(StudyError::NotDynamic);
     }

@@ -15,6 +15,8 @@ use serde::{Deserialize, Serialize};
 use crate::model_text::{Model, Override};
 use crate::session::columns;
 
+pub use crate::units::platform;
+
 /// Name of the shared library in a unit, without its extension.
 pub const LIBRARY: &str = "lissom_fmi";
 /// Name of the file with the model among the resources of a unit.
@@ -197,13 +199,4 @@ pub fn export(model: &Model, library: &[u8]) -> Result<Vec<u8>, FmuError> {
     let files =
         [("modelDescription.xml", description.as_bytes()), (&resource, text.as_bytes()), (&binary, library)];
     Ok(crate::encodings::archive::zip(&files)?)
-}
-
-/// The folder of this machine's platform, as named by FMI 3.0.
-pub fn platform() -> String {
-    let system = match std::env::consts::OS {
-        "macos" => "darwin",
-        other => other,
-    };
-    format!("{}-{system}", std::env::consts::ARCH)
 }

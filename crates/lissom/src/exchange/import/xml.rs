@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use roxmltree::{Document, Node};
 
 use super::ImportError;
-
-/// Largest number of elements that contain each other one in the other: the readers are recursive.
-pub(super) const MAX_DEPTH: usize = 300;
+use crate::encodings::tags::tags;
+pub(super) use crate::encodings::tags::{MAX_DEPTH, too_deep};
 
 /// Parses a text.
 ///
@@ -36,50 +35,6 @@ pub(super) fn with_prefixes(mut text: String) -> String {
         text.insert_str(at + length, &format!(" xmlns:{prefix}=\"{prefix}\""));
     }
     text
-}
-
-/// Where the first tag begins that is nested more deeply than [`MAX_DEPTH`], by a scan of the text: parsers are recursive, too.
-pub(super) fn too_deep(text: &str) -> Option<usize> {
-    let mut depth = 0_usize;
-    tags(text).find_map(|(at, tag)| {
-        match tag.as_bytes().get(1) {
-            Some(b'!' | b'?') => {}
-            Some(b'/') => depth = depth.saturating_sub(1),
-            _ if tag.ends_with('/') => {}
-            _ => depth += 1,
-        }
-        (depth > MAX_DEPTH).then_some(at)
-    })
-}
-
-/// Tags, comments and instructions with their positions, without the sign that ends them; what does not end is reported by the parser.
-fn tags(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut from = 0;
-    std::iter::from_fn(move || {
-        let at = from + text[from..].find('<')?;
-        let tag = &text[at..];
-        let end = match tag {
-            _ if tag.starts_with("<!--") => tag.find("-->"),
-            _ if tag.starts_with("<![CDATA[") => tag.find("]]>"),
-            _ => end_of_tag(tag),
-        }?;
-        from = at + end;
-        Some((at, &tag[..end]))
-    })
-}
-
-/// Position of the end of a tag, outside of the values of its attributes.
-fn end_of_tag(tag: &str) -> Option<usize> {
-    let mut quote = None;
-    tag.char_indices().find_map(|(at, sign)| {
-        match (quote, sign) {
-            (None, '>') => return Some(at),
-            (None, '"' | '\'') => quote = Some(sign),
-            (Some(open), _) if open == sign => quote = None,
-            _ => {}
-        }
-        None
-    })
 }
 
 /// Whether an element belongs to another format than the root.

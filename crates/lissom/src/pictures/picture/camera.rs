@@ -11,7 +11,7 @@ use super::paint::Paint;
 use super::view::{Projection, View};
 use crate::motion::{Motion, MotionRecorder};
 use crate::pictures::geometry::{Carrier, Colour, Geometry};
-use crate::start::lower;
+use crate::start::lower_with_units;
 
 /// Default length of the shorter side of a picture, relative to the model at its start.
 const AROUND: f64 = 1.5;
@@ -45,7 +45,7 @@ impl Camera {
     /// # Panics
     /// If the positions of its start are not finite, which a valid model excludes.
     pub fn of(document: &Document) -> Result<Self, Report> {
-        let lowered = lower(document)?;
+        let lowered = lower_with_units(document)?;
         let (scene, start) = (Scene::of(document, &lowered.placed()), &lowered.state.kinematics);
         let mut bytes = Vec::new();
         let written = MotionRecorder::new(&lowered, None, &mut bytes).write_still(start);

@@ -1,0 +1,159 @@
+//! Co-simulation units of other programs.
+
+use std::path::PathBuf;
+
+use super::entries::each;
+use crate::expression::{self, Formula};
+use crate::files::library::joined;
+use crate::format::keys::{Key, Shape, optional, required, unitless};
+use crate::parts::context::Context;
+use crate::reading::reader::Reader;
+use crate::text::report::{Located, Span};
+use crate::text::{Node, Value};
+
+/// A unit of another program, which is advanced from sample to sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnitEntry {
+    /// Name.
+    pub name: Located<String>,
+    /// Path of the archive.
+    pub file: Located<PathBuf>,
+    /// Input variables with their expressions.
+    pub inputs: Vec<(Located<String>, Located<Formula>)>,
+    /// Names in expressions, without that of the unit, with the output variables.
+    pub outputs: Vec<(String, Located<String>)>,
+    /// Start values of variables.
+    pub parameters: Vec<(Located<String>, f64)>,
+    /// Time from sample to sample [s].
+    pub sample: f64,
+    /// Longest real time of a call of the unit [s].
+    pub timeout: f64,
+}
+
+impl UnitEntry {
+    /// Name of an output in expressions.
+    pub fn output_name(&self, output: &str) -> String {
+        format!("{}.{output}", self.name.value)
+    }
+}
+
+/// Keys of a unit.
+pub(super) fn keys() -> Vec<Key> {
+    vec![
+        required("file", Shape::Text, "", "the unit, a file `.fmu`; path relative to this file"),
+        required(
+            "sample",
+            Shape::Positive,
+            "s",
+            "time from sample to sample: the step of the unit, over which inputs and outputs are constant",
+        ),
+        unitless(
+            "inputs",
+            Shape::Table,
+            "input variables of the unit, with expressions of their values at samples",
+        ),
+        unitless(
+            "outputs",
+            Shape::Table,
+            "output variables of the unit: `y = \"VARIABLE\"` is `unit.y` in expressions",
+        ),
+        unitless("parameters", Shape::Table, "start values of variables of the unit, numbers"),
+        optional(
+            "timeout",
+            Shape::Positive,
+            "s",
+            "real time after which a unit that does not answer has failed",
+        )
+        .or_number(60.0),
+    ]
+}
+
+pub(super) fn units(context: &Context<'_>) -> Vec<UnitEntry> {
+    each(context, "units", |reader, name| {
+        check_name(context, name, reader.name)?;
+        let file = reader.text("file")?;
+        let path = joined(context.sources.file(file.span), file.value);
+        let path = match context.library.unit(&path) {
+            Ok(path) => Located::new(path, file.span),
+            Err(missing) => {
+                return context.fail(file.span, missing.message, missing.help.unwrap_or_default());
+            }
+        };
+        let mut inputs = Vec::new();
+        for (variable, node) in table(reader, "inputs", "expressions")? {
+            let formula = context.formula(node, &format!("`inputs.{}` of unit `{name}`", variable.value))?;
+            inputs.push((variable, Located::new(formula, node.span)));
+        }
+        let mut outputs = Vec::new();
+        for (output, node) in table(reader, "outputs", "names of variables")? {
+            if !is_word(&output.value) {
+                let message = format!(
+                    "`{}` cannot be the name of an output, because expressions cannot contain it",
+                    output.value
+                );
+                return context.fail(output.span, message, "use letters, digits and `_`, a letter first");
+            }
+            let Value::Text(variable) = &node.value else {
+                return context.wrong_type(
+                    node,
+                    &format!("`outputs.{}` of unit `{name}`", output.value),
+                    "a text: a variable of the unit",
+                );
+            };
+            outputs.push((output.value, Located::new(variable.clone(), node.span)));
+        }
+        let mut parameters = Vec::new();
+        for (variable, node) in table(reader, "parameters", "numbers")? {
+            let value = context.number(node, &format!("`parameters.{}` of unit `{name}`", variable.value))?;
+            parameters.push((variable, value));
+        }
+        Some(UnitEntry {
+            name: Located::new(name.to_owned(), reader.name),
+            file: path,
+            inputs,
+            outputs,
+            parameters,
+            sample: reader.number("sample")?.value,
+            timeout: reader.number("timeout")?.value,
+        })
+    })
+}
+
+/// Entries of the table `key`; none for a value that is no table, which is reported.
+fn table<'c>(reader: &Reader<'c, '_>, key: &str, of: &str) -> Option<Vec<(Located<String>, &'c Node)>> {
+    let Some(node) = reader.node(key) else { return Some(Vec::new()) };
+    let Value::Table(table) = &node.value else {
+        return reader.context.wrong_type(
+            node,
+            &reader.words(key),
+            &format!("a table of variables and {of}"),
+        );
+    };
+    Some(table.iter().map(|(word, entry)| (Located::new(word.clone(), entry.key), &entry.node)).collect())
+}
+
+fn is_word(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+        && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
+        && !expression::is_reserved(name)
+}
+
+/// Expressions name a unit's outputs as they name components of joints and outputs.
+fn check_name(context: &Context<'_>, name: &str, span: Span) -> Option<()> {
+    let local = name.rsplit('.').next().unwrap_or(name);
+    if !is_word(local) {
+        let message = format!("`{name}` cannot be the name of a unit, because expressions cannot contain it");
+        let help =
+            "use letters, digits and `_`, a letter first, and no word of expressions such as `pi` or `t`";
+        return context.fail(span, message, help);
+    }
+    for (table, what) in [("joints", "joint"), ("outputs", "output"), ("signals", "signal")] {
+        if context.has(table, name) {
+            let message =
+                format!("the unit `{name}` has the name of a {what}, so `{name}.y` would be ambiguous");
+            return context.fail(span, message, "rename one of them");
+        }
+    }
+    Some(())
+}

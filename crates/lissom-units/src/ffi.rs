@@ -1,0 +1,491 @@
+//! Calls of the functions of a unit, with the names and types of the headers of FMI 2.0 and 3.0. The only unsafe code of the crate:
+//! foreign code is called through the pointers that its shared library exports, which have the declared types by the standard. It
+//! runs in a process of its own, so that a unit that breaks the standard ends this process alone.
+//!
+//! The functions are declared here, because the crate `fmi` needs libclang and a C compiler to be built.
+#![allow(unsafe_code)]
+
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ptr::{null, null_mut};
+use std::sync::{Mutex, PoisonError};
+
+use libloading::Library;
+
+use crate::messages::{Opening, Standard, Variable, VariableType};
+
+type Instance = *mut c_void;
+type Status = c_int;
+
+/// Messages of the unit of this process that are not yet reported: the last ones.
+static LOG: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// The messages since the last call.
+pub(crate) fn logged() -> Vec<String> {
+    std::mem::take(&mut *LOG.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+fn note(message: *const c_char) {
+    if message.is_null() {
+        return;
+    }
+    // SAFETY: messages of a unit are null-terminated.
+    let message = unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned();
+    let mut log = LOG.lock().unwrap_or_else(PoisonError::into_inner);
+    // The last messages of a step explain its failure.
+    if log.len() == 8 {
+        log.remove(0);
+    }
+    log.push(message);
+}
+
+extern "C" fn log3(_: *mut c_void, _: Status, _: *const c_char, message: *const c_char) {
+    note(message);
+}
+
+/// The function for messages of FMI 2.0. In the header more arguments follow, for `%s` and the like in the message; the caller
+/// removes them, and the message is reported without them.
+extern "C" fn log2(_: *mut c_void, _: *const c_char, _: Status, _: *const c_char, message: *const c_char) {
+    note(message);
+}
+
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(memory: *mut c_void);
+}
+
+/// Functions for a unit of FMI 2.0.
+#[repr(C)]
+struct Callbacks {
+    log: extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char),
+    allocate: unsafe extern "C" fn(usize, usize) -> *mut c_void,
+    free: unsafe extern "C" fn(*mut c_void),
+    step_finished: *const c_void,
+    environment: *mut c_void,
+}
+
+/// A loaded and instantiated unit.
+pub(crate) struct Unit {
+    library: Library,
+    standard: Standard,
+    instance: Instance,
+    /// Whether it has left its initialisation, and no function failed fatally.
+    may_terminate: bool,
+    /// Used by the unit as long as it exists.
+    _callbacks: Box<Callbacks>,
+}
+
+// Types of functions that both versions of the standard have.
+type OfInstance = unsafe extern "C" fn(Instance) -> Status;
+type Get<T> = unsafe extern "C" fn(Instance, *const u32, usize, *mut T) -> Status;
+type Get3<T> = unsafe extern "C" fn(Instance, *const u32, usize, *mut T, usize) -> Status;
+type Set<T> = unsafe extern "C" fn(Instance, *const u32, usize, *const T) -> Status;
+type Set3<T> = unsafe extern "C" fn(Instance, *const u32, usize, *const T, usize) -> Status;
+type Deserialize = unsafe extern "C" fn(Instance, *const u8, usize, *mut *mut c_void) -> Status;
+type OfState = unsafe extern "C" fn(Instance, *mut *mut c_void) -> Status;
+
+/// Finds a function of the library.
+fn symbol<T: Copy>(library: &Library, name: &str) -> Result<T, String> {
+    // SAFETY: by the standard the function of this name has the type with which the callers of this function declare it.
+    let found = unsafe { library.get::<T>(name.as_bytes()) };
+    found.map(|symbol| *symbol).map_err(|_| format!("its library has no function `{name}`"))
+}
+
+fn text(of: &str) -> Result<CString, String> {
+    CString::new(of).map_err(|_| format!("`{of}` contains a zero"))
+}
+
+/// The URI of a folder.
+fn uri(path: &str) -> String {
+    let mut uri = "file://".to_owned();
+    for byte in path.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'_' | b'.' | b'~' => {
+                uri.push(char::from(byte));
+            }
+            other => {
+                let digit = |half: u8| char::from_digit(u32::from(half), 16).unwrap_or_default();
+                uri.extend(['%', digit(other >> 4), digit(other & 15)]);
+            }
+        }
+    }
+    uri
+}
+
+impl Unit {
+    /// Loads the library and instantiates the unit.
+    pub(crate) fn load(opening: &Opening) -> Result<Self, String> {
+        // SAFETY: loading runs code of the library, which belongs to this process alone.
+        let library = unsafe { Library::new(&opening.library) }.map_err(|error| {
+            // The cause, such as a missing library on which it depends.
+            let cause =
+                std::error::Error::source(&error).map(|cause| format!(": {cause}")).unwrap_or_default();
+            format!("its library cannot be loaded: {error}{cause}")
+        })?;
+        let (name, token) = (text(&opening.name)?, text(&opening.token)?);
+        let callbacks = Box::new(Callbacks {
+            log: log2,
+            allocate: calloc,
+            free,
+            step_finished: null(),
+            environment: null_mut(),
+        });
+        let instance = match opening.standard {
+            Standard::Fmi2 => {
+                type Instantiate = unsafe extern "C" fn(
+                    *const c_char,
+                    c_int,
+                    *const c_char,
+                    *const c_char,
+                    *const Callbacks,
+                    c_int,
+                    c_int,
+                ) -> Instance;
+                let instantiate: Instantiate = symbol(&library, "fmi2Instantiate")?;
+                let resources = text(&uri(&opening.resources))?;
+                // Exporters of FMI 2.0 report the causes of errors with logging only; the last messages are kept.
+                let logs = 1;
+                // SAFETY: types and life times of the standard; 1 is co-simulation.
+                unsafe {
+                    instantiate(
+                        name.as_ptr(),
+                        1,
+                        token.as_ptr(),
+                        resources.as_ptr(),
+                        &raw const *callbacks,
+                        0,
+                        logs,
+                    )
+                }
+            }
+            Standard::Fmi3 => {
+                type Log = extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
+                type Instantiate = unsafe extern "C" fn(
+                    *const c_char,
+                    *const c_char,
+                    *const c_char,
+                    bool,
+                    bool,
+                    bool,
+                    bool,
+                    *const u32,
+                    usize,
+                    *mut c_void,
+                    Log,
+                    *const c_void,
+                ) -> Instance;
+                let instantiate: Instantiate = symbol(&library, "fmi3InstantiateCoSimulation")?;
+                let resources = text(&format!("{}/", opening.resources))?;
+                // SAFETY: types and life times of the standard; no events, early returns or intermediate values.
+                unsafe {
+                    instantiate(
+                        name.as_ptr(),
+                        token.as_ptr(),
+                        resources.as_ptr(),
+                        false,
+                        false,
+                        false,
+                        false,
+                        null(),
+                        0,
+                        null_mut(),
+                        log3,
+                        null(),
+                    )
+                }
+            }
+        };
+        if instance.is_null() {
+            return Err("it cannot be instantiated".to_owned());
+        }
+        Ok(Self {
+            library,
+            standard: opening.standard,
+            instance,
+            may_terminate: false,
+            _callbacks: callbacks,
+        })
+    }
+
+    /// The prefix of the names of all functions.
+    fn prefix(&self) -> &'static str {
+        match self.standard {
+            Standard::Fmi2 => "fmi2",
+            Standard::Fmi3 => "fmi3",
+        }
+    }
+
+    fn function<T: Copy>(&self, name: &str) -> Result<T, String> {
+        symbol(&self.library, &format!("{}{name}", self.prefix()))
+    }
+
+    /// Whether a call has succeeded, perhaps with a warning.
+    fn check(&mut self, status: Status, name: &str) -> Result<(), String> {
+        let word = match status {
+            0 | 1 => return Ok(()),
+            2 => "Discard",
+            3 => "Error",
+            4 => "Fatal",
+            5 => "Pending",
+            _ => "an unknown status",
+        };
+        self.may_terminate &= status == 2;
+        Err(format!("`{}{name}` returned {word}", self.prefix()))
+    }
+
+    fn call(&mut self, name: &str) -> Result<(), String> {
+        let function: OfInstance = self.function(name)?;
+        // SAFETY: the instance exists until this value is dropped.
+        let status = unsafe { function(self.instance) };
+        self.check(status, name)
+    }
+
+    /// Begins the initialisation at `start` [s].
+    pub(crate) fn enter_initialization(&mut self, start: f64) -> Result<(), String> {
+        let name = "EnterInitializationMode";
+        match self.standard {
+            Standard::Fmi2 => {
+                let setup = "SetupExperiment";
+                let function: unsafe extern "C" fn(Instance, c_int, f64, f64, c_int, f64) -> Status =
+                    self.function(setup)?;
+                // SAFETY: types of the standard; neither tolerance nor stop time.
+                let status = unsafe { function(self.instance, 0, 0.0, start, 0, 0.0) };
+                self.check(status, setup)?;
+                self.call(name)
+            }
+            Standard::Fmi3 => {
+                let function: unsafe extern "C" fn(Instance, bool, f64, f64, bool, f64) -> Status =
+                    self.function(name)?;
+                // SAFETY: types of the standard; neither tolerance nor stop time.
+                let status = unsafe { function(self.instance, false, 0.0, start, false, 0.0) };
+                self.check(status, name)
+            }
+        }
+    }
+
+    /// Ends the initialisation.
+    pub(crate) fn exit_initialization(&mut self) -> Result<(), String> {
+        self.call("ExitInitializationMode")?;
+        self.may_terminate = true;
+        Ok(())
+    }
+
+    fn set_of<T: Copy>(&mut self, name: &str, references: &[u32], values: &[T]) -> Result<(), String> {
+        let (all, count, numbers) = (references.as_ptr(), references.len(), values.as_ptr());
+        let status = match self.standard {
+            Standard::Fmi2 => {
+                let function: Set<T> = self.function(name)?;
+                // SAFETY: both pointers are to as many numbers as declared.
+                unsafe { function(self.instance, all, count, numbers) }
+            }
+            Standard::Fmi3 => {
+                let function: Set3<T> = self.function(name)?;
+                // SAFETY: both pointers are to as many numbers as declared.
+                unsafe { function(self.instance, all, count, numbers, values.len()) }
+            }
+        };
+        self.check(status, name)
+    }
+
+    fn get_of<T: Copy + Default>(&mut self, name: &str, references: &[u32]) -> Result<Vec<T>, String> {
+        let mut values = vec![T::default(); references.len()];
+        let (all, count, numbers) = (references.as_ptr(), references.len(), values.as_mut_ptr());
+        let status = match self.standard {
+            Standard::Fmi2 => {
+                let function: Get<T> = self.function(name)?;
+                // SAFETY: both pointers are to as many numbers as declared.
+                unsafe { function(self.instance, all, count, numbers) }
+            }
+            Standard::Fmi3 => {
+                let function: Get3<T> = self.function(name)?;
+                // SAFETY: both pointers are to as many numbers as declared.
+                unsafe { function(self.instance, all, count, numbers, count) }
+            }
+        };
+        self.check(status, name)?;
+        Ok(values)
+    }
+
+    /// Positions of the variables of a type, with their value references.
+    fn of_type(variables: &[Variable], wanted: VariableType) -> Option<(Vec<usize>, Vec<u32>)> {
+        let all = variables.iter().enumerate().filter(|(_, variable)| variable.holds == wanted);
+        let found: (Vec<usize>, Vec<u32>) = all.map(|(index, variable)| (index, variable.reference)).unzip();
+        (!found.0.is_empty()).then_some(found)
+    }
+
+    /// Sets variables; integers are rounded, and booleans are true from 0.5 on.
+    pub(crate) fn set(&mut self, variables: &[Variable], values: &[f64]) -> Result<(), String> {
+        let is_second = self.standard == Standard::Fmi2;
+        if let Some((places, references)) = Self::of_type(variables, VariableType::Real) {
+            let numbers: Vec<f64> = places.iter().map(|&place| values[place]).collect();
+            self.set_of(if is_second { "SetReal" } else { "SetFloat64" }, &references, &numbers)?;
+        }
+        if let Some((places, references)) = Self::of_type(variables, VariableType::Integer) {
+            let numbers: Vec<i32> = places.iter().map(|&place| values[place].round() as i32).collect();
+            self.set_of(if is_second { "SetInteger" } else { "SetInt32" }, &references, &numbers)?;
+        }
+        if let Some((places, references)) = Self::of_type(variables, VariableType::Boolean) {
+            let flags = places.iter().map(|&place| values[place] >= 0.5);
+            if is_second {
+                self.set_of("SetBoolean", &references, &flags.map(c_int::from).collect::<Vec<_>>())?;
+            } else {
+                self.set_of("SetBoolean", &references, &flags.collect::<Vec<_>>())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Values of variables.
+    pub(crate) fn get(&mut self, variables: &[Variable]) -> Result<Vec<f64>, String> {
+        let is_second = self.standard == Standard::Fmi2;
+        let mut values = vec![0.0; variables.len()];
+        if let Some((places, references)) = Self::of_type(variables, VariableType::Real) {
+            let found: Vec<f64> =
+                self.get_of(if is_second { "GetReal" } else { "GetFloat64" }, &references)?;
+            places.into_iter().zip(found).for_each(|(place, value)| values[place] = value);
+        }
+        if let Some((places, references)) = Self::of_type(variables, VariableType::Integer) {
+            let found: Vec<i32> =
+                self.get_of(if is_second { "GetInteger" } else { "GetInt32" }, &references)?;
+            places.into_iter().zip(found).for_each(|(place, value)| values[place] = f64::from(value));
+        }
+        if let Some((places, references)) = Self::of_type(variables, VariableType::Boolean) {
+            // One byte in FMI 3.0: any other value than 0 and 1 would be no `bool` of Rust.
+            let found: Vec<bool> = if is_second {
+                let found: Vec<c_int> = self.get_of("GetBoolean", &references)?;
+                found.into_iter().map(|value| value != 0).collect()
+            } else {
+                let found: Vec<u8> = self.get_of("GetBoolean", &references)?;
+                found.into_iter().map(|value| value != 0).collect()
+            };
+            places
+                .into_iter()
+                .zip(found)
+                .for_each(|(place, value)| values[place] = f64::from(u8::from(value)));
+        }
+        Ok(values)
+    }
+
+    /// Takes a step; `is_final` is whether the unit will not return to its start.
+    pub(crate) fn step(&mut self, [from, step]: [f64; 2], is_final: bool) -> Result<(), String> {
+        let name = "DoStep";
+        match self.standard {
+            Standard::Fmi2 => {
+                let function: unsafe extern "C" fn(Instance, f64, f64, c_int) -> Status =
+                    self.function(name)?;
+                // SAFETY: types of the standard.
+                let status = unsafe { function(self.instance, from, step, c_int::from(is_final)) };
+                self.check(status, name)
+            }
+            Standard::Fmi3 => {
+                type DoStep = unsafe extern "C" fn(
+                    Instance,
+                    f64,
+                    f64,
+                    bool,
+                    *mut u8,
+                    *mut u8,
+                    *mut u8,
+                    *mut f64,
+                ) -> Status;
+                let function: DoStep = self.function(name)?;
+                let (mut event, mut ended, mut early, mut last) = (0, 0, 0, from + step);
+                // SAFETY: types of the standard, where a boolean is one byte; the pointers live through the call.
+                let status = unsafe {
+                    function(
+                        self.instance,
+                        from,
+                        step,
+                        is_final,
+                        &raw mut event,
+                        &raw mut ended,
+                        &raw mut early,
+                        &raw mut last,
+                    )
+                };
+                self.check(status, name)?;
+                if ended != 0 {
+                    return Err(format!("it ended the simulation at t = {last} s"));
+                }
+                if early != 0 {
+                    return Err(format!("its step ended early, at t = {last} s, which was not allowed"));
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Applies `act` to a state, which is freed afterwards.
+    fn with_state<T>(
+        &mut self,
+        mut state: *mut c_void,
+        act: impl FnOnce(&mut Self, *mut c_void) -> Result<T, String>,
+    ) -> Result<T, String> {
+        let done = act(self, state);
+        let name = if self.standard == Standard::Fmi2 { "FreeFMUstate" } else { "FreeFMUState" };
+        let function: OfState = self.function(name)?;
+        // SAFETY: the state is one of this instance.
+        let status = unsafe { function(self.instance, &raw mut state) };
+        self.check(status, name)?;
+        done
+    }
+
+    /// The state as bytes.
+    pub(crate) fn save(&mut self) -> Result<Vec<u8>, String> {
+        let names = match self.standard {
+            Standard::Fmi2 => ["GetFMUstate", "SerializedFMUstateSize", "SerializeFMUstate"],
+            Standard::Fmi3 => ["GetFMUState", "SerializedFMUStateSize", "SerializeFMUState"],
+        };
+        let function: OfState = self.function(names[0])?;
+        let mut state = null_mut();
+        // SAFETY: a null pointer becomes a new state.
+        let status = unsafe { function(self.instance, &raw mut state) };
+        self.check(status, names[0])?;
+        self.with_state(state, |unit, state| {
+            let size: unsafe extern "C" fn(Instance, *mut c_void, *mut usize) -> Status =
+                unit.function(names[1])?;
+            let mut count = 0;
+            // SAFETY: the state is one of this instance.
+            let status = unsafe { size(unit.instance, state, &raw mut count) };
+            unit.check(status, names[1])?;
+            let serialize: unsafe extern "C" fn(Instance, *mut c_void, *mut u8, usize) -> Status =
+                unit.function(names[2])?;
+            let mut bytes = vec![0; count];
+            // SAFETY: there is room for as many bytes as the unit has requested.
+            let status = unsafe { serialize(unit.instance, state, bytes.as_mut_ptr(), count) };
+            unit.check(status, names[2])?;
+            Ok(bytes)
+        })
+    }
+
+    /// Sets the state.
+    pub(crate) fn restore(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let names = match self.standard {
+            Standard::Fmi2 => ["DeSerializeFMUstate", "SetFMUstate"],
+            Standard::Fmi3 => ["DeserializeFMUState", "SetFMUState"],
+        };
+        let function: Deserialize = self.function(names[0])?;
+        let mut state = null_mut();
+        // SAFETY: the bytes live through the call; a null pointer becomes a new state.
+        let status = unsafe { function(self.instance, bytes.as_ptr(), bytes.len(), &raw mut state) };
+        self.check(status, names[0])?;
+        self.with_state(state, |unit, state| {
+            let set: unsafe extern "C" fn(Instance, *mut c_void) -> Status = unit.function(names[1])?;
+            // SAFETY: the state is one of this instance.
+            let status = unsafe { set(unit.instance, state) };
+            unit.check(status, names[1])
+        })
+    }
+}
+
+impl Drop for Unit {
+    fn drop(&mut self) {
+        if self.may_terminate {
+            // The simulation is over: a failure has no consequence.
+            let _ = self.call("Terminate");
+        }
+        if let Ok(function) = self.function::<unsafe extern "C" fn(Instance)>("FreeInstance") {
+            // SAFETY: the instance is not used any more.
+            unsafe { function(self.instance) };
+        }
+    }
+}

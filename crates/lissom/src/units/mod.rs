@@ -1,0 +1,255 @@
+//! Units of other programs (FMI 2.0 and 3.0, co-simulation) in a model: their archives and descriptions, and their processes.
+
+mod description;
+mod process;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use lissom_core::simulation::{Unit, UnitFault};
+use lissom_model::document::UnitEntry;
+use lissom_model::{Document, Located, Problem, Report, Span, files, suggestion};
+use lissom_units::{Opening, Variable};
+
+use crate::encodings::unarchive::Unarchived;
+use description::{Described, Description};
+use process::{UnitProcess, UnpackedFolder};
+
+pub use process::{COMMAND, set_host};
+
+/// A unit of a model, whose variables have been checked.
+#[derive(Clone)]
+pub struct ReadUnit {
+    archive: Arc<[u8]>,
+    /// Folder of the library within the archive.
+    binaries: String,
+    /// How it is loaded, with paths relative to the folder of its files, and without start time.
+    opening: Opening,
+    timeout: Duration,
+}
+
+/// Serves a unit in this process, until the simulation that started it has no more requests.
+///
+/// # Errors
+/// If this process was not started for a unit.
+pub fn serve() -> std::io::Result<()> {
+    lissom_units::serve(crate::VERSION)
+}
+
+/// Reads the units of a document, in the order of `names`.
+///
+/// # Errors
+/// All problems, underlined in the model's text.
+pub(crate) fn read<'n>(
+    document: &Document,
+    names: impl Iterator<Item = &'n str>,
+) -> Result<Vec<ReadUnit>, Report> {
+    let (mut units, mut problems) = (Vec::new(), Vec::new());
+    for name in names {
+        let Some(entry) = document.units.iter().find(|entry| entry.name.value == name) else { continue };
+        match read_one(entry) {
+            Ok(unit) => units.push(unit),
+            Err(problem) => problems.push(*problem),
+        }
+    }
+    if problems.is_empty() { Ok(units) } else { Err(document.report(problems)) }
+}
+
+fn read_one(entry: &UnitEntry) -> Result<ReadUnit, Box<Problem>> {
+    let name = &entry.name.value;
+    let (path, span) = (&entry.file.value, entry.file.span);
+    let fail = |message: String, help: &str| Box::new(Problem::error(span, message).help(help));
+    let shown = path.display();
+    let archive = files::read_input(path).map_err(|error| {
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            _ => error.to_string(),
+        };
+        fail(format!("unit `{name}`: `{shown}`: {reason}"), "name a file `.fmu`, relative to the model file")
+    })?;
+    let about = |message: String| {
+        fail(
+            format!("unit `{name}`: `{shown}` cannot be used: {message}"),
+            "export the unit again, for co-simulation with FMI 2.0 or 3.0",
+        )
+    };
+    let files = Unarchived::of(&archive).map_err(about)?;
+    let text = files.contents("modelDescription.xml").map_err(about)?;
+    let text = text.ok_or_else(|| about("it has no `modelDescription.xml`, so it is no FMU".to_owned()))?;
+    let text = String::from_utf8(text).map_err(|_| about("its description is not in UTF-8".to_owned()))?;
+    let description = Description::read(&text).map_err(about)?;
+    let suffix = std::env::consts::DLL_SUFFIX;
+    let library = |platform: &String| format!("binaries/{platform}/{}{suffix}", description.library);
+    let platforms = description.platforms();
+    let Some(platform) = platforms.iter().find(|platform| files.names().any(|own| own == library(platform)))
+    else {
+        let found = files.names().filter_map(|own| own.strip_prefix("binaries/")?.split('/').next());
+        let found: std::collections::BTreeSet<&str> = found.collect();
+        let found = if found.is_empty() {
+            "none".to_owned()
+        } else {
+            found.into_iter().collect::<Vec<_>>().join(", ")
+        };
+        let message = format!("it has no library `{}`; its platforms are: {found}", library(&platforms[0]));
+        return Err(about(message));
+    };
+    let variables = Variables { unit: name, all: &description.variables };
+    let mut inputs = Vec::new();
+    for (variable, _) in &entry.inputs {
+        inputs.push(variables.find(variable, "input", |own| own.causality == "input")?);
+    }
+    let missing = description.variables.iter().find(|own| {
+        own.causality == "input"
+            && own.variable.is_some()
+            && !entry.inputs.iter().any(|(given, _)| given.value == own.name)
+    });
+    if let Some(missing) = missing {
+        let start = missing.start.as_deref().unwrap_or("0");
+        let message = format!("unit `{name}` has the input `{}`, which is not in `inputs`", missing.name);
+        let help = format!("add `\"{}\" = {start}` to `inputs`, or an expression", missing.name);
+        return Err(Box::new(Problem::error(entry.name.span, message).help(help)));
+    }
+    let mut outputs = Vec::new();
+    for (_, variable) in &entry.outputs {
+        outputs.push(variables.find(variable, "output", |own| own.causality != "independent")?);
+    }
+    let mut parameters = Vec::new();
+    for (variable, value) in &entry.parameters {
+        parameters.push((variables.find(variable, "parameter", |own| own.is_settable)?, *value));
+    }
+    let (library, binaries) = (library(platform), format!("binaries/{platform}/"));
+    let opening = Opening {
+        version: crate::VERSION.to_owned(),
+        standard: description.standard,
+        library,
+        resources: "resources".to_owned(),
+        name: name.clone(),
+        token: description.token,
+        start: 0.0,
+        parameters,
+        inputs,
+        outputs,
+        saves: description.saves,
+    };
+    let timeout = Duration::try_from_secs_f64(entry.timeout).unwrap_or(Duration::MAX);
+    let timeout = timeout.max(Duration::from_millis(1));
+    Ok(ReadUnit { archive: archive.into(), binaries, opening, timeout })
+}
+
+/// Variables of a unit.
+struct Variables<'d> {
+    unit: &'d str,
+    all: &'d [Described],
+}
+
+impl Variables<'_> {
+    /// The variable of a name that is `accepted` in a role.
+    fn find(
+        &self,
+        name: &Located<String>,
+        role: &str,
+        accepted: impl Fn(&Described) -> bool,
+    ) -> Result<Variable, Box<Problem>> {
+        let fail = |span: Span, message: String, help: Option<String>| {
+            Box::new(Problem::error(span, message).label("here").maybe_help(help))
+        };
+        let wanted = &name.value;
+        let Some(found) = self.all.iter().find(|own| own.name == *wanted) else {
+            let known = self.all.iter().filter(|own| accepted(own) && own.variable.is_some());
+            let message = format!("unit `{}` has no variable `{wanted}`", self.unit);
+            return Err(fail(name.span, message, suggestion(wanted, known.map(|own| own.name.as_str()))));
+        };
+        if !accepted(found) {
+            let message = format!(
+                "the variable `{wanted}` of unit `{}` cannot be set: it is {}",
+                self.unit,
+                match found.causality.as_str() {
+                    "input" => "an input".to_owned(),
+                    other => format!("of causality `{other}`"),
+                }
+            );
+            let known = self.all.iter().filter(|own| accepted(own) && own.variable.is_some());
+            let known: Vec<&str> = known.map(|own| own.name.as_str()).take(8).collect();
+            let help = format!("name one that is an {role}: {}", known.join(", "));
+            return Err(fail(name.span, message, Some(help)));
+        }
+        found.variable.ok_or_else(|| {
+            let message =
+                format!("the variable `{wanted}` of unit `{}` is of type {}", self.unit, found.holds);
+            let help =
+                "variables of type Float64, Int32 and Boolean (Real, Integer) can be used, one number each";
+            fail(name.span, message, Some(help.to_owned()))
+        })
+    }
+}
+
+impl ReadUnit {
+    /// Starts the unit in a process, at the time `start` [s].
+    pub(crate) fn start(&self, start: f64) -> Result<Box<dyn Unit>, UnitFault> {
+        let folder = self.unpack().map_err(|reason| UnitFault {
+            cause: format!("its files cannot be unpacked: {reason}"),
+            remedy: "check the folder of temporary files, TMPDIR, and its free space".to_owned(),
+        })?;
+        let absolute = |path: &str| folder.0.join(path).display().to_string();
+        let opening = Opening {
+            start,
+            library: absolute(&self.opening.library),
+            resources: absolute(&self.opening.resources),
+            ..self.opening.clone()
+        };
+        Ok(Box::new(UnitProcess::start(opening, folder, self.timeout)?))
+    }
+
+    /// Writes the files that the unit needs to a new temporary folder, which only this user can read.
+    fn unpack(&self) -> Result<UnpackedFolder, String> {
+        let files = Unarchived::of(&self.archive)?;
+        let folder = UnpackedFolder(new_folder().map_err(|error| error.to_string())?);
+        let is_needed = |name: &&str| {
+            let is_other = name.starts_with("binaries/") && !name.starts_with(&self.binaries);
+            !(is_other || name.starts_with("sources/") || name.starts_with("documentation/"))
+        };
+        std::fs::create_dir_all(folder.0.join("resources")).map_err(|error| error.to_string())?;
+        for name in files.names().filter(is_needed) {
+            let path = folder.0.join(name);
+            let written = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+            let contents = files.contents(name)?.unwrap_or_default();
+            written
+                .and_then(|()| std::fs::write(&path, contents))
+                .map_err(|error| format!("`{name}`: {error}"))?;
+        }
+        Ok(folder)
+    }
+}
+
+/// A new folder among the temporary files.
+fn new_folder() -> std::io::Result<PathBuf> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let mut builder = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    let mut last = std::io::Error::from(std::io::ErrorKind::AlreadyExists);
+    for _ in 0..100 {
+        let nanoseconds =
+            SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.subsec_nanos());
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("lissom-unit-{}-{number}-{nanoseconds:x}", std::process::id());
+        let folder = std::path::absolute(std::env::temp_dir().join(name))?;
+        match builder.create(&folder) {
+            Ok(()) => return Ok(folder),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => last = error,
+            Err(error) => return Err(error),
+        }
+    }
+    Err(last)
+}
+
+/// The folder of this machine's platform, as named by FMI 3.0.
+pub fn platform() -> String {
+    let system = match std::env::consts::OS {
+        "macos" => "darwin",
+        other => other,
+    };
+    format!("{}-{system}", std::env::consts::ARCH)
+}

@@ -1,0 +1,294 @@
+//! The process of a unit, as the simulation sees it: requests with a limit of time, and what is left when it has ended.
+
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use lissom_core::simulation::{Unit, UnitFault};
+use lissom_units::{Answer, Opening, Reply, Request, receive, send};
+
+#[cfg(unix)]
+type Stream = std::os::unix::net::UnixStream;
+#[cfg(not(unix))]
+type Stream = std::net::TcpStream;
+
+/// Environment variable with the program that serves units, if it is not found by itself.
+const PROGRAM: &str = "LISSOM_UNIT_HOST";
+/// Subcommand of the program that serves units.
+pub const COMMAND: &str = "unit-host";
+
+/// The command that starts a process for a unit: a program and its arguments.
+static HOST: Mutex<Option<(PathBuf, Vec<String>)>> = Mutex::new(None);
+
+/// Sets the command that starts a process for a unit: it must call [`serve`](super::serve).
+pub fn set_host(program: PathBuf, arguments: Vec<String>) {
+    *HOST.lock().unwrap_or_else(PoisonError::into_inner) = Some((program, arguments));
+}
+
+/// The command for a process: the one that was set, that of the environment, or the program `lissom` beside this one or on the path.
+fn host() -> Result<Command, UnitFault> {
+    let set = HOST.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    if let Some((program, arguments)) = set.filter(|_| std::env::var_os(PROGRAM).is_none()) {
+        let mut command = Command::new(program);
+        command.args(arguments);
+        return Ok(command);
+    }
+    let name = format!("lissom{}", std::env::consts::EXE_SUFFIX);
+    let own = std::env::current_exe().ok();
+    // Tests and examples of Cargo are one folder below.
+    let beside = own.iter().flat_map(|own| own.ancestors().skip(1).take(2)).map(|folder| folder.join(&name));
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let on_path: Vec<PathBuf> = std::env::split_paths(&path).map(|folder| folder.join(&name)).collect();
+    let given = std::env::var_os(PROGRAM).map(PathBuf::from);
+    let Some(program) = given.or_else(|| beside.chain(on_path).find(|program| program.is_file())) else {
+        let cause = "the program `lissom`, which starts the process of a unit, is not found".to_owned();
+        let remedy = format!("put it on the PATH, or set {PROGRAM} to its path");
+        return Err(UnitFault { cause, remedy });
+    };
+    let is_python = program.file_stem().is_some_and(|stem| stem.to_string_lossy().starts_with("python"));
+    let mut command = Command::new(program);
+    if is_python {
+        command.args(["-c", "from lissom._lissom import serve_unit; serve_unit()"]);
+    } else {
+        command.arg(COMMAND);
+    }
+    Ok(command)
+}
+
+/// A unit in its process.
+pub(super) struct UnitProcess {
+    connection: Mutex<Connection>,
+    saves: bool,
+}
+
+struct Connection {
+    child: Child,
+    /// None after a failure.
+    stream: Option<Stream>,
+    /// The last bytes that the process has written to the terminal.
+    written: Arc<Mutex<Vec<u8>>>,
+    timeout: Duration,
+    _folder: UnpackedFolder,
+}
+
+/// A folder with the files of a unit, removed with this value.
+pub(super) struct UnpackedFolder(pub(super) PathBuf);
+
+impl Drop for UnpackedFolder {
+    fn drop(&mut self) {
+        // What cannot be removed remains among the temporary files.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A text of another program in one line, without control characters.
+fn plain(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let mut joined = lines.collect::<Vec<_>>().join("; ");
+    // Terminals interpret control characters.
+    joined.retain(|sign| !sign.is_control());
+    let count = joined.chars().count();
+    if count > 600 { joined.chars().skip(count - 600).collect() } else { joined }
+}
+
+fn words(status: Option<ExitStatus>) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = status.and_then(|status| std::os::unix::process::ExitStatusExt::signal(&status)) {
+        let name = match signal {
+            4 => " (illegal instruction)",
+            6 => " (abort)",
+            8 => " (arithmetic exception)",
+            9 => " (killed)",
+            11 => " (invalid memory access)",
+            _ => "",
+        };
+        return format!("its process was ended by signal {signal}{name}");
+    }
+    match status.and_then(|status| status.code()) {
+        Some(code) => format!("its process ended with exit code {code}"),
+        None => "its process ended".to_owned(),
+    }
+}
+
+impl UnitProcess {
+    /// Starts a process and loads the unit, whose files are in `folder`.
+    pub(super) fn start(
+        opening: Opening,
+        folder: UnpackedFolder,
+        timeout: Duration,
+    ) -> Result<Self, UnitFault> {
+        let saves = opening.saves;
+        let mut command = host()?;
+        let program = PathBuf::from(command.get_program());
+        let failed = |error: io::Error| UnitFault {
+            cause: format!("its process, `{}`, cannot be started: {error}", program.display()),
+            remedy: format!("check the program, or set {PROGRAM} to the path of `lissom`"),
+        };
+        let (stream, child) = spawn(&mut command, &folder.0).map_err(failed)?;
+        let mut connection =
+            Connection { child, stream: Some(stream), written: Arc::default(), timeout, _folder: folder };
+        connection.collect_errors();
+        connection.request(&Request::Open(Box::new(opening)))?;
+        Ok(Self { connection: Mutex::new(connection), saves })
+    }
+
+    fn request(&self, request: &Request) -> Result<Answer, UnitFault> {
+        self.connection.lock().unwrap_or_else(PoisonError::into_inner).request(request)
+    }
+
+    fn values(&self, request: &Request, out: &mut [f64]) -> Result<(), UnitFault> {
+        match self.request(request)? {
+            Answer::Values(values) if values.len() == out.len() => {
+                out.copy_from_slice(&values);
+                Ok(())
+            }
+            _ => Err(UnitFault {
+                cause: "its process gives another answer than expected".to_owned(),
+                remedy: "start the simulation again".to_owned(),
+            }),
+        }
+    }
+}
+
+/// Starts the process with a socket as its standard input. It has a group of its own, so that an interrupt from the keyboard reaches
+/// the simulation alone.
+#[cfg(unix)]
+fn spawn(command: &mut Command, folder: &Path) -> io::Result<(Stream, Child)> {
+    use std::os::fd::OwnedFd;
+    use std::os::unix::process::CommandExt;
+    let (own, other) = Stream::pair()?;
+    command.stdin(Stdio::from(OwnedFd::from(other))).stdout(Stdio::null()).stderr(Stdio::piped());
+    command.current_dir(folder).process_group(0);
+    let child = command.spawn()?;
+    // The socket is also open in the command: without this the end of the process would not be noticed.
+    command.stdin(Stdio::null());
+    Ok((own, child))
+}
+
+#[cfg(not(unix))]
+fn spawn(_: &mut Command, _: &Path) -> io::Result<(Stream, Child)> {
+    Err(io::Error::new(io::ErrorKind::Unsupported, "units run on Linux and macOS only"))
+}
+
+impl Connection {
+    /// Keeps the end of what the process writes to the terminal, for messages.
+    fn collect_errors(&mut self) {
+        let Some(mut from) = self.child.stderr.take() else { return };
+        let written = Arc::clone(&self.written);
+        std::thread::spawn(move || {
+            let mut bytes = [0; 1024];
+            while let Ok(count) = from.read(&mut bytes) {
+                if count == 0 {
+                    break;
+                }
+                let mut all = written.lock().unwrap_or_else(PoisonError::into_inner);
+                all.extend_from_slice(&bytes[..count]);
+                let excess = all.len().saturating_sub(4096);
+                all.drain(..excess);
+            }
+        });
+    }
+
+    fn request(&mut self, request: &Request) -> Result<Answer, UnitFault> {
+        let Some(stream) = &mut self.stream else {
+            let remedy = "start the simulation again".to_owned();
+            return Err(UnitFault { cause: "its process has ended".to_owned(), remedy });
+        };
+        let exchanged = stream
+            .set_read_timeout(Some(self.timeout))
+            .and_then(|()| stream.set_write_timeout(Some(self.timeout)))
+            .and_then(|()| send(stream, request))
+            .and_then(|()| receive::<Reply>(stream));
+        let error = match exchanged {
+            Ok(Reply { answer: Ok(answer), .. }) => return Ok(answer),
+            Ok(Reply { answer: Err(error), log }) => {
+                let mut cause = error;
+                for words in [log.join("\n"), self.terminal()] {
+                    let words = plain(&words);
+                    if !words.is_empty() {
+                        cause = format!("{cause}: {words}");
+                    }
+                }
+                let remedy = if cause.contains("undefined symbol: Py")
+                    || cause.contains("undefined symbol: _Py")
+                {
+                    format!(
+                        "it needs a Python interpreter: run the model from Python, or set {PROGRAM}=python3"
+                    )
+                } else {
+                    "check its inputs, its parameters and its step `sample`".to_owned()
+                };
+                return Err(UnitFault { cause, remedy });
+            }
+            Err(error) => error,
+        };
+        self.stream = None;
+        if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) {
+            let _ = self.child.kill();
+            let cause = format!("it did not answer within {} s", self.timeout.as_secs_f64());
+            let remedy = "increase `timeout` of the unit, or look for what it waits for".to_owned();
+            return Err(UnitFault { cause, remedy });
+        }
+        let mut cause = words(self.wait(Duration::from_secs(5)));
+        let written = plain(&self.terminal());
+        if !written.is_empty() {
+            cause = format!("{cause}; it wrote: {written}");
+        }
+        let remedy =
+            "run the unit alone, with the inputs of this instant, in the program that made it".to_owned();
+        Err(UnitFault { cause, remedy })
+    }
+
+    /// What the process has written to the terminal.
+    fn terminal(&self) -> String {
+        String::from_utf8_lossy(&self.written.lock().unwrap_or_else(PoisonError::into_inner)).into_owned()
+    }
+
+    /// Waits for the end of the process, which is ended after `longest`.
+    fn wait(&mut self, longest: Duration) -> Option<ExitStatus> {
+        let began = Instant::now();
+        while began.elapsed() < longest {
+            if let Ok(Some(status)) = self.child.try_wait() {
+                return Some(status);
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        let _ = self.child.kill();
+        self.child.wait().ok()
+    }
+}
+
+impl Drop for Connection {
+    fn drop(&mut self) {
+        self.stream = None;
+        self.wait(Duration::from_secs(2));
+    }
+}
+
+impl Unit for UnitProcess {
+    fn begin(&mut self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), UnitFault> {
+        self.values(&Request::Begin(inputs.to_vec()), outputs)
+    }
+
+    fn advance(
+        &mut self,
+        [from, step]: [f64; 2],
+        inputs: &[f64],
+        outputs: &mut [f64],
+    ) -> Result<(), UnitFault> {
+        self.values(&Request::Advance { from, step, inputs: inputs.to_vec() }, outputs)
+    }
+
+    fn save(&self) -> Option<Vec<u8>> {
+        match self.saves.then(|| self.request(&Request::Save)) {
+            Some(Ok(Answer::State(state))) => Some(state),
+            _ => None,
+        }
+    }
+
+    fn restore(&mut self, state: &[u8]) -> Result<(), UnitFault> {
+        self.request(&Request::Restore(state.to_vec())).map(|_| ())
+    }
+}
