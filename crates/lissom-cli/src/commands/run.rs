@@ -11,6 +11,7 @@ use std::time::Instant;
 use clap::Args;
 use lissom::analyses::buckling::BucklingRequest;
 use lissom::analyses::modes::ModeRequest;
+use lissom::core::errors::InitialError;
 use lissom::core::number::{Written, duration, written};
 use lissom::model::document::AnalysisKind;
 use lissom::model::lower::check_run;
@@ -92,6 +93,18 @@ struct Task {
     resumed: Option<Checkpoint>,
 }
 
+/// The failure of a model that cannot start, which the summary names unless the folder has earlier results.
+fn failed_start<T>(folder: &ResultFolder, summary: &mut Summary, error: &InitialError) -> Result<T, Failure> {
+    let kept = if folder.has_results() {
+        format!("  the earlier results in `{}` are unchanged\n", folder.path().display())
+    } else {
+        summary::of_failed_start(summary, error);
+        folder.write_summary(summary).map_err(unwritable)?;
+        String::new()
+    };
+    Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &kept))
+}
+
 impl Run {
     /// The run that `lissom run` would start for a model, with default threads and without checkpoints.
     pub(super) fn of_model(model: &Path, set: &[Override], out: &Path, quiet: bool) -> Self {
@@ -145,19 +158,8 @@ impl Run {
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = task.summary(&document, &lowered);
         let ready = Instant::now();
-        let mut session = match Session::start(lowered) {
-            Ok(session) => session,
-            Err(error) => {
-                let kept = if folder.has_results() {
-                    format!("  the earlier results in `{}` are unchanged\n", folder.path().display())
-                } else {
-                    summary::of_failed_start(&mut summary, &error);
-                    folder.write_summary(&summary).map_err(unwritable)?;
-                    String::new()
-                };
-                return Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &kept));
-            }
-        };
+        let mut session =
+            Session::start(lowered).or_else(|error| failed_start(&folder, &mut summary, &error))?;
         if task.every.is_some() {
             session.simulation().check_snapshots().map_err(|error| Failure::new(Exit::BadModel, &error))?;
         }

@@ -573,7 +573,7 @@ diagnostics! {
         } => "tyre-beyond-data" {
             time: *time,
             subject: Subject::new("part", part),
-            cause: ("at t = {time} s the tyre of `{part}` carries {load:.0} N, more than the {limit:.0} N for which its file has data (FZMAX): its forces are \
+            cause: ("at t = {time} s the tyre of `{part}` carries {load:.0} N, more than the {limit:.0} N for which its file has data: its forces are \
                     extrapolated"),
             remedy: "reduce the load, or use a file of a larger tyre",
             meaning: "A tyre property file states the loads of its measurements. Beyond them the coefficients are those of its largest load, and the \

@@ -38,7 +38,7 @@
 //! σ_κ = F_z (PTX1 + PTX2 d) exp(PTX3 d) R₀/F_z0 LSGKP,    σ_α = PTY1 sin(2 arctan(F_z/(PTY2 F_z0)))(1 - PKY3 |γ_y|) R₀ LFZO LSGAL
 //! ```
 //!
-//! d stays within the loads FZMIN to FZMAX of the measurements, κ within KPUMIN to KPUMAX.
+//! d stays within the loads FZMIN to FZMAX of the measurements, and below those at which a friction or stiffness vanishes; κ stays within KPUMIN to KPUMAX.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_2_PI;
@@ -80,6 +80,14 @@ pub struct MagicFormula {
     nominal: f64,
     /// -1 for a tyre on the other side of the vehicle than the measured one.
     side: f64,
+}
+
+/// Pure slip in one direction, and per normal force the force, its slope and the friction.
+struct Pure<T> {
+    slip: T,
+    pull: T,
+    stiffness: T,
+    friction: T,
 }
 
 /// e^x.
@@ -176,7 +184,22 @@ impl MagicFormula {
                 "needs a negative coefficient PKY1: the lateral force opposes the slip angle in the axes of ISO 8855".to_owned(),
             );
         }
+        law.values[FZMAX as usize] = law.usable_load();
         Ok(law)
+    }
+
+    /// The largest load, at most FZMAX, up to which slip stiffness and friction are positive: those of some files vanish within their range.
+    fn usable_load(&self) -> f64 {
+        let is_usable = |load: &f64| {
+            let load = load / self.nominal - 1.0;
+            [(PKX1, PKX2), (PDX1, PDX2), (PDY1, PDY2)]
+                .iter()
+                .all(|(first, second)| self.linear(*first, *second, load) > 0.0)
+        };
+        // In hundredths of five nominal loads.
+        let loads = (0..=400).map(|k| self.nominal * (1.0 + 0.01 * f64::from(k)));
+        let first_bad = loads.into_iter().find(|load| !is_usable(load));
+        first_bad.map_or(f64::INFINITY, |load| load - 0.02 * self.nominal).min(self.of(FZMAX))
     }
 
     fn of(&self, name: Coefficient) -> f64 {
@@ -193,7 +216,7 @@ impl MagicFormula {
         self.of(FNOMIN)
     }
 
-    /// Largest normal force of the measurement [N], or infinity.
+    /// Largest normal force for which there are data [N], or infinity.
     pub fn largest_load(&self) -> f64 {
         self.of(FZMAX)
     }
@@ -306,6 +329,35 @@ impl MagicFormula {
         }
     }
 
+    /// G_x, G_y and S_κ per normal force, for κ, α, γ and d.
+    fn combined<T: Number>(&self, [kappa, alpha, gamma, load]: [T; 4], x: &Pure<T>, y: &Pure<T>) -> [T; 3] {
+        let of = |name| self.of(name);
+        if of(RBX1) > 0.0 && of(RBY1) > 0.0 {
+            let curvature = self.linear(REX1, REX2, load);
+            let slope = cosine(kappa.scaled(of(RBX2)).arc_tangent()).scaled(of(RBX1) * of(LXAL));
+            let part = |at| cosine(bent(at, slope, of(RCX1), curvature));
+            let reduction_x = part(alpha.plus(of(RHX1))) / part(T::constant(of(RHX1)));
+            let curvature = self.linear(REY1, REY2, load);
+            let slope =
+                cosine(alpha.plus(-of(RBY3)).scaled(of(RBY2)).arc_tangent()).scaled(of(RBY1) * of(LYKA));
+            let shift = self.linear(RHY1, RHY2, load);
+            let part = |at| cosine(bent(at, slope, of(RCY1), curvature));
+            let reduction_y = part(kappa + shift) / part(shift);
+            let size = y.friction * (self.linear(RVY1, RVY2, load) + gamma.scaled(of(RVY3)));
+            let fading = cosine(alpha.scaled(of(RVY4)).arc_tangent());
+            let wave = sine(kappa.scaled(of(RVY6)).arc_tangent().scaled(of(RVY5)));
+            return [reduction_x, reduction_y, size * fading * wave.scaled(of(LVYKA))];
+        }
+        let one = T::constant(1.0);
+        let across = sine(y.slip);
+        let ellipse = |own: &Pure<T>, slip: T, other: T, friction: T| {
+            let secant = if slip.value().abs() < 1e-9 { own.stiffness } else { own.pull / slip };
+            let part = secant * other / friction;
+            one / (part * part).plus(1.0).square_root()
+        };
+        [ellipse(x, x.slip, across, y.friction), ellipse(y, across, x.slip, x.friction), T::constant(0.0)]
+    }
+
     /// Forces of the tyre on the side on which it was measured.
     fn measured<T: Number>(&self, slip: &Slip<T>) -> Tread<T> {
         let one = T::constant(1.0);
@@ -346,34 +398,9 @@ impl MagicFormula {
         let shift_y = self.linear(PVY1, PVY2, load).scaled(of(LVY)) + self.linear(PVY3, PVY4, load) * gamma_y;
         let shift_y = shift_y.scaled(of(LMUY));
 
-        // Combined slip.
-        let (reduction_x, reduction_y, shift_k);
-        if of(RBX1) > 0.0 && of(RBY1) > 0.0 {
-            let curvature = self.linear(REX1, REX2, load);
-            let slope = cosine(kappa.scaled(of(RBX2)).arc_tangent()).scaled(of(RBX1) * of(LXAL));
-            let part = |at| cosine(bent(at, slope, of(RCX1), curvature));
-            reduction_x = part(alpha.plus(of(RHX1))) / part(T::constant(of(RHX1)));
-            let curvature = self.linear(REY1, REY2, load);
-            let slope =
-                cosine(alpha.plus(-of(RBY3)).scaled(of(RBY2)).arc_tangent()).scaled(of(RBY1) * of(LYKA));
-            let shift = self.linear(RHY1, RHY2, load);
-            let part = |at| cosine(bent(at, slope, of(RCY1), curvature));
-            reduction_y = part(kappa + shift) / part(shift);
-            let size = mu_y * (self.linear(RVY1, RVY2, load) + gamma.scaled(of(RVY3)));
-            let fading = cosine(alpha.scaled(of(RVY4)).arc_tangent());
-            let wave = sine(kappa.scaled(of(RVY6)).arc_tangent().scaled(of(RVY5)));
-            shift_k = size * fading * wave.scaled(of(LVYKA));
-        } else {
-            let sine_y = sine(alpha_y);
-            let ellipse = |pull: T, own: T, stiffness: T, other: T, friction: T| {
-                let secant = if own.value().abs() < 1e-9 { stiffness } else { pull / own };
-                let part = secant * other / friction;
-                one / (part * part).plus(1.0).square_root()
-            };
-            reduction_x = ellipse(pull_x, kappa_x, stiffness_x, sine_y, mu_y);
-            reduction_y = ellipse(pull_y, sine_y, stiffness_y, kappa_x, mu_x);
-            shift_k = T::constant(0.0);
-        }
+        let x = Pure { slip: kappa_x, pull: pull_x, stiffness: stiffness_x, friction: mu_x };
+        let y = Pure { slip: alpha_y, pull: pull_y, stiffness: stiffness_y, friction: mu_y };
+        let [reduction_x, reduction_y, shift_k] = self.combined([kappa, alpha, gamma, load], &x, &y);
         let along = normal * (pull_x + shift_x) * reduction_x;
         let free = normal * (pull_y + shift_y) * reduction_y;
         let across = free + normal * shift_k;

@@ -127,6 +127,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "local_load": outputs.LocalLoad,
         "spring": outputs.Spring,
         "spring_force": outputs.SpringForce,
+        "tyre": outputs.Tyre,
         "power": outputs.Power,
         "work": outputs.Work,
         "energy": outputs.Energy,

@@ -528,6 +528,21 @@ class SpringForce(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class Tyre(Output):
+    """Slip, slip angle and forces of a tyre in axes of its contact, and its aligning moment; all zero in the air.
+
+    Args:
+        of: the spring; the name of an entry of `[springs]`.
+        plot: plot in which it is drawn together with other outputs of the same word; default its own; a text, or nothing.
+    """
+
+    _form: ClassVar[str] = "tyre"
+
+    of: str
+    plot: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Power(Output):
     """Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.
 

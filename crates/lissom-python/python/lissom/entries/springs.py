@@ -142,7 +142,7 @@ class RollingContact(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class Tyre(Spring):
-    """A tyre on a plane road: brush model with combined slip, relaxation, camber, trail and standstill without creep.
+    """A tyre on a road, plane or uneven: brush model or Magic Formula with combined slip, relaxation, camber, trail and standstill without creep.
 
     Args:
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
@@ -153,11 +153,13 @@ class Tyre(Spring):
         normal: Normal of the road at the start, which is fixed in the base, global axes; `at_base` is a point of the road; a direction.
         wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre. The tip is the part that rotates; a direction.
         radius: Free radius; default: the one with which it touches the road at the start [m]; a number > 0, or nothing.
-        stiffness: Normal force per deflection [N/m]; a number > 0.
-        damping: Normal force per deflection rate; default 0 [N s/m]; a number ≥ 0, or nothing.
+        magic_formula: Coefficients of PAC2002 or MF-Tyre 5.2: a tyre property file `.tir`, or `{ file = "…", LMUY = 0.8 }` with other values of some. They replace the other data of the tyre except for `damping_time`; a tyre property file, or `{ file = "…", NAME = number }`, or nothing.
+        mounted: Side of the vehicle, on which `wheel_axis` points to the left; offsets change their sign on the side for which the file was not measured; default: the side of the file; `"left"`, `"right"`, or nothing.
+        stiffness: Normal force per deflection; required without `magic_formula` [N/m]; a number > 0, or nothing.
+        damping: Normal force per deflection rate; default 0, or that of the file [N s/m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of friction; that of dry asphalt is the default; default 0.9; a number > 0, or nothing.
-        slip_stiffness: Longitudinal force per slip and normal force, at small slip; a number > 0.
-        cornering_stiffness: Lateral force per slip angle and normal force, at small angles; a number > 0.
+        slip_stiffness: Longitudinal force per slip and normal force, at small slip; required without `magic_formula`; a number > 0, or nothing.
+        cornering_stiffness: Lateral force per slip angle and normal force, at small angles; required without `magic_formula`; a number > 0, or nothing.
         camber_stiffness: Lateral force per camber angle and normal force, towards the side to which the wheel leans; default 0; a number ≥ 0, or nothing.
         pneumatic_trail: Distance of the lateral force behind the centre of contact at small angles; default a tenth of the radius [m]; a number ≥ 0, or nothing.
         relaxation_length: Distance over which a lateral force builds up; default the radius [m]; a number > 0, or nothing.
@@ -165,6 +167,10 @@ class Tyre(Spring):
         damping_time: Damping of the tread over its stiffness, which fades beyond 1 m/s; default 5e-3 [s]; a number ≥ 0, or nothing.
         rolling_resistance: Resistance to rolling over the normal force; default 0; a number ≥ 0, or nothing.
         load_sensitivity: Decrease of friction with the normal force: μ/(1 + this N); default 0 [1/N]; a number ≥ 0, or nothing.
+        road: Height of an uneven road above the plane, along `normal`: an expression of `x` and `y`, a table over `x`, a grid `{ file = "…" }`, or a random profile `{ class = "C" }` of ISO 8608; x and y from `at_base`, in the plane [m]; a number, an expression of `x` and `y`, `{ file = "…" }`, `{ grid = "…" }`, `{ class = "C" }`, or a list of these, which are added, or nothing.
+        road_direction: Direction of x of the road at the start, global axes; its part in the plane counts; a direction, or nothing.
+        width: Width of the contact on an uneven road; default 0.6 of the radius [m]; a number > 0, or nothing.
+        contact_length: Length of the contact on an uneven road; default 0.4 of the radius [m]; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "tyre"
@@ -177,11 +183,13 @@ class Tyre(Spring):
     normal: Vector | str
     wheel_axis: Vector | str
     radius: Number | None = None
-    stiffness: Number
+    magic_formula: str | Table | None = None
+    mounted: Literal["left", "right"] | None = None
+    stiffness: Number | None = None
     damping: Number | None = None
     friction_coefficient: Number | None = None
-    slip_stiffness: Number
-    cornering_stiffness: Number
+    slip_stiffness: Number | None = None
+    cornering_stiffness: Number | None = None
     camber_stiffness: Number | None = None
     pneumatic_trail: Number | None = None
     relaxation_length: Number | None = None
@@ -189,6 +197,10 @@ class Tyre(Spring):
     damping_time: Number | None = None
     rolling_resistance: Number | None = None
     load_sensitivity: Number | None = None
+    road: Function | list[Function] | None = None
+    road_direction: Vector | str | None = None
+    width: Number | None = None
+    contact_length: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

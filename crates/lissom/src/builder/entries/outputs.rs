@@ -150,6 +150,11 @@ entries! {
         * of: SpringId = "of", "the spring";
     }
 
+    /// Slip, slip angle and forces of a tyre in axes of its contact, and its aligning moment; all zero in the air.
+    Tyre => OutputId, kind: "tyre" {
+        * of: SpringId = "of", "the spring";
+    }
+
     /// Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.
     Power => OutputId, kind: "power" {
         * of: Quantity = "of", "the name of a spring, a load, a drive or a joint with friction";
@@ -195,7 +200,7 @@ keys! {
 }
 
 keys! {
-    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, SolidStress, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
+    [Position, Displacement, Rotation, Quaternion, CardanAngles, Angle, Velocity, Distance, AngularVelocity, Acceleration, SectionForce, SectionMoment, ShellForce, ShellMoment, ShellStress, SolidStress, Line, Modal, Recovered, Reaction, Relative, RelativeAcceleration, RelativeMotion, Contact, ContactForce, LocalLoad, Spring, SpringForce, Tyre, Power, Work, Energy, Momentum, Signal, ExpressionOutput]
         plot: String = "plot", "Plot in which it is drawn together with other outputs of the same word; default its own.";
 }
 

@@ -41,18 +41,20 @@ entries! {
         rolling_rate: f64 = "rolling_rate", "Rate ω\\_s of the law tanh(ω/ω\\_s) of `rolling_friction`, below which the wheel creeps; default 0.01 \\[rad/s\\].";
     }
 
-    /// A tyre on a plane road: brush model with combined slip, relaxation, camber, trail and standstill without creep.
+    /// A tyre on a road, plane or uneven: brush model or Magic Formula with combined slip, relaxation, camber, trail and standstill without creep.
     Tyre => SpringId, kind: "tyre" {
         * base: Node = "base", "first node: \"ground\", \"body\", \"beam.end\" …";
         * tip: Node = "tip", "second node";
         * normal: [f64; 3] = "normal", "Normal of the road at the start, which is fixed in the base, global axes; `at_base` is a point of the road";
         * wheel_axis: [f64; 3] = "wheel_axis", "Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre. The tip is the part that rotates";
-        * stiffness: f64 = "stiffness", "Normal force per deflection \\[N/m\\]";
-        * slip_stiffness: f64 = "slip_stiffness", "Longitudinal force per slip and normal force, at small slip";
-        * cornering_stiffness: f64 = "cornering_stiffness", "Lateral force per slip angle and normal force, at small angles";
         radius: f64 = "radius", "Free radius; default: the one with which it touches the road at the start \\[m\\].";
-        damping: f64 = "damping", "Normal force per deflection rate; default 0 \\[N s/m\\].";
+        magic_formula: String = "magic_formula", "Coefficients of PAC2002 or MF-Tyre 5.2: a tyre property file `.tir`, or `{ file = \"…\", LMUY = 0.8 }` with other values of some. They replace the other data of the tyre except for `damping_time`.";
+        mounted: words::Mounted = "mounted", "Side of the vehicle, on which `wheel_axis` points to the left; offsets change their sign on the side for which the file was not measured; default: the side of the file.";
+        stiffness: f64 = "stiffness", "Normal force per deflection; required without `magic_formula` \\[N/m\\].";
+        damping: f64 = "damping", "Normal force per deflection rate; default 0, or that of the file \\[N s/m\\].";
         friction_coefficient: f64 = "friction_coefficient", "Coefficient of friction; that of dry asphalt is the default; default 0.9.";
+        slip_stiffness: f64 = "slip_stiffness", "Longitudinal force per slip and normal force, at small slip; required without `magic_formula`.";
+        cornering_stiffness: f64 = "cornering_stiffness", "Lateral force per slip angle and normal force, at small angles; required without `magic_formula`.";
         camber_stiffness: f64 = "camber_stiffness", "Lateral force per camber angle and normal force, towards the side to which the wheel leans; default 0.";
         pneumatic_trail: f64 = "pneumatic_trail", "Distance of the lateral force behind the centre of contact at small angles; default a tenth of the radius \\[m\\].";
         relaxation_length: f64 = "relaxation_length", "Distance over which a lateral force builds up; default the radius \\[m\\].";
@@ -60,6 +62,10 @@ entries! {
         damping_time: f64 = "damping_time", "Damping of the tread over its stiffness, which fades beyond 1 m/s; default 5e-3 \\[s\\].";
         rolling_resistance: f64 = "rolling_resistance", "Resistance to rolling over the normal force; default 0.";
         load_sensitivity: f64 = "load_sensitivity", "Decrease of friction with the normal force: μ/(1 + this N); default 0 \\[1/N\\].";
+        road: Function = "road", "Height of an uneven road above the plane, along `normal`: an expression of `x` and `y`, a table over `x`, a grid `{ file = \"…\" }`, or a random profile `{ class = \"C\" }` of ISO 8608; x and y from `at_base`, in the plane \\[m\\].";
+        road_direction: [f64; 3] = "road_direction", "Direction of x of the road at the start, global axes; its part in the plane counts.";
+        width: f64 = "width", "Width of the contact on an uneven road; default 0.6 of the radius \\[m\\].";
+        contact_length: f64 = "contact_length", "Length of the contact on an uneven road; default 0.4 of the radius \\[m\\].";
     }
 
     /// Rope that slides over several points without friction: pulleys, and hoists by its free length.

@@ -17,6 +17,7 @@ words! {
     Kind { Compliant = "compliant", Rigid = "rigid", Along = "along", Nearest = "nearest", Nodes = "nodes" }
     Locked { X = "x", Y = "y", Z = "z", Rx = "rx", Ry = "ry", Rz = "rz" }
     Model { StVenantKirchhoff = "st-venant-kirchhoff", NeoHookean = "neo-hookean", MooneyRivlin = "mooney-rivlin" }
+    Mounted { Left = "left", Right = "right" }
     Orientation { Free = "free", Tangent = "tangent", Section = "section" }
     Plane { Xy = "xy", Yz = "yz", Zx = "zx" }
     Scaling { Physical = "physical", Unit = "unit", None = "none" }
