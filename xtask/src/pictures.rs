@@ -73,6 +73,7 @@ const OTHERS: &[(&str, &str, Make)] = &[
     ("first-model", "png", first_model),
     ("joints", "png", joints),
     ("modes", "png", modes),
+    ("tyre", "svg", tyre),
 ];
 
 /// The kinds of joints by rows, with the keys that they need.
@@ -248,6 +249,13 @@ fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
     let request = CampbellRequest { vary, count: 4, shift: None, averaged: false, rays: vec![1, 2, 3] };
     let found = campbell(&Model::from_text("rotor.toml", ROTOR), &request)?;
     Ok(found.diagram("Overhung disc").and_then(|drawn| drawn.svg()).map_err(FolderError::from)?.into_bytes())
+}
+
+/// The curves of the tyre of the examples, as the bytes of an SVG file.
+fn tyre() -> Result<Vec<u8>, PicturesError> {
+    run_program(&["tyre", "examples/parts/passenger-car.tir", "--out", "target/pictures/tyre"])?;
+    let path = verify::root().join("target/pictures/tyre/tyre.svg");
+    Ok(files::read_text(&path)?.into_bytes())
 }
 
 /// Simulates a model into a folder of this name.
