@@ -78,10 +78,12 @@ fn wraps_nothing(error: &str) -> bool {
 }
 
 /// Errors for which there is no model here, with the reason.
-const WITHOUT_MODEL: [(&str, &str); 13] = [
+const WITHOUT_MODEL: [(&str, &str); 15] = [
     ("StepError::NoTime", "a session is asked for it, no model can"),
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
     ("StepError::Diverges", "the tests of Python have unstable loops"),
+    ("StepError::Unit", "its unit is compiled by command_line/units.rs"),
+    ("InitialError::Unit", "its unit is compiled by command_line/units.rs"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
     ("StepError::TooInaccurate", "no model found since steps end at jumps"),
     ("StepError::LoopIsSingular", "no model found: contradictions are reported before"),

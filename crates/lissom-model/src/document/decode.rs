@@ -193,6 +193,10 @@ fn version(context: &Context<'_>) -> Option<()> {
     context.fail(node.span, message, help)
 }
 
+/// Remedy for a file that specifies units.
+const UNITS: &str =
+    "remove it, and write lengths in m, masses in kg, times in s, forces in N and angles in rad";
+
 /// Checks the keys at the top level and whether each is a table or a value as required.
 fn check_words(context: &Context<'_>) {
     for (word, span, node) in context.tops() {
@@ -202,7 +206,10 @@ fn check_words(context: &Context<'_>) {
             context.report(problem.label("unknown").maybe_help(help));
             continue;
         };
-        if !matches!(top.holds, Holds::Value(_)) && node.table().is_none() {
+        if word == "units" && node.table().is_none() {
+            let message = "`units` contains models of other programs, no units of numbers";
+            context.fail::<()>(node.span, message, UNITS);
+        } else if !matches!(top.holds, Holds::Value(_)) && node.table().is_none() {
             context.wrong_type::<()>(node, &format!("`{word}`"), "a table");
         }
     }

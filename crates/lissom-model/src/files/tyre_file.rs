@@ -22,7 +22,7 @@ pub enum TyreFileError {
     Line {
         /// Line of the file, from 1.
         line: usize,
-        /// Its beginning.
+        /// Beginning of the line.
         text: String,
     },
     /// A value is no number.

@@ -118,7 +118,7 @@ pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
         "t" | "time" if is_known("pi") && !is_known("t") => Some(
             "this number is constant: what changes with time is another key, such as `scale` of a load".to_owned(),
         ),
-        "units" | "unit" if is_known("lissom") => Some(
+        "unit" if is_known("lissom") => Some(
             "units cannot be specified: remove it, and write lengths in m, masses in kg, times in s, forces in N and angles \
              in rad"
                 .to_owned(),

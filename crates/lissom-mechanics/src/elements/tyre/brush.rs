@@ -34,7 +34,7 @@ impl Brush {
     pub(super) fn new(radius: f64, parameters: &Parameters) -> Result<Self, ParameterError> {
         let number = |key| parameters.number(key);
         Ok(Self {
-            normal: [number("stiffness")?, parameters.number_or("damping", 0.0)?],
+            normal: [number("stiffness")?, number("damping")?],
             friction: [number("friction_coefficient")?, number("load_sensitivity")?],
             slip: [number("slip_stiffness")?, number("cornering_stiffness")?, number("camber_stiffness")?],
             trail: parameters.number_or("pneumatic_trail", 0.1 * radius)?,

@@ -111,8 +111,9 @@ pub const KIND: ElementKind = ElementKind {
             "damping",
             NotNegative,
             "N s/m",
-            "Normal force per deflection rate; default 0, or that of the file.",
-        ),
+            "Normal force per deflection rate, without `magic_formula`.",
+        )
+        .or_number(0.0),
         unitless(
             "friction_coefficient",
             Positive,
@@ -185,13 +186,13 @@ pub const KIND: ElementKind = ElementKind {
             "width",
             Positive,
             "m",
-            "Width of the contact on an uneven road; default 0.6 of the radius.",
+            "Width of the contact on an uneven road; default three fifths of the radius.",
         ),
         optional(
             "contact_length",
             Positive,
             "m",
-            "Length of the contact on an uneven road; default 0.4 of the radius.",
+            "Length of the contact on an uneven road; default two fifths of the radius.",
         ),
     ],
     ports: Ports::TWO_FRAMES,

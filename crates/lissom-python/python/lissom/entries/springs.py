@@ -156,7 +156,7 @@ class Tyre(Spring):
         magic_formula: Coefficients of PAC2002 or MF-Tyre 5.2: a tyre property file `.tir`, or `{ file = "…", LMUY = 0.8 }` with other values of some. They replace the other data of the tyre except for `damping_time`; a tyre property file, or `{ file = "…", NAME = number }`, or nothing.
         mounted: Side of the vehicle, on which `wheel_axis` points to the left; offsets change their sign on the side for which the file was not measured; default: the side of the file; `"left"`, `"right"`, or nothing.
         stiffness: Normal force per deflection; required without `magic_formula` [N/m]; a number > 0, or nothing.
-        damping: Normal force per deflection rate; default 0, or that of the file [N s/m]; a number ≥ 0, or nothing.
+        damping: Normal force per deflection rate, without `magic_formula`; default 0 [N s/m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of friction; that of dry asphalt is the default; default 0.9; a number > 0, or nothing.
         slip_stiffness: Longitudinal force per slip and normal force, at small slip; required without `magic_formula`; a number > 0, or nothing.
         cornering_stiffness: Lateral force per slip angle and normal force, at small angles; required without `magic_formula`; a number > 0, or nothing.
@@ -169,8 +169,8 @@ class Tyre(Spring):
         load_sensitivity: Decrease of friction with the normal force: μ/(1 + this N); default 0 [1/N]; a number ≥ 0, or nothing.
         road: Height of an uneven road above the plane, along `normal`: an expression of `x` and `y`, a table over `x`, a grid `{ file = "…" }`, or a random profile `{ class = "C" }` of ISO 8608; x and y from `at_base`, in the plane [m]; a number, an expression of `x` and `y`, `{ file = "…" }`, `{ grid = "…" }`, `{ class = "C" }`, or a list of these, which are added, or nothing.
         road_direction: Direction of x of the road at the start, global axes; its part in the plane counts; a direction, or nothing.
-        width: Width of the contact on an uneven road; default 0.6 of the radius [m]; a number > 0, or nothing.
-        contact_length: Length of the contact on an uneven road; default 0.4 of the radius [m]; a number > 0, or nothing.
+        width: Width of the contact on an uneven road; default three fifths of the radius [m]; a number > 0, or nothing.
+        contact_length: Length of the contact on an uneven road; default two fifths of the radius [m]; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "tyre"

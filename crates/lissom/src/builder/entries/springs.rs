@@ -51,7 +51,7 @@ entries! {
         magic_formula: String = "magic_formula", "Coefficients of PAC2002 or MF-Tyre 5.2: a tyre property file `.tir`, or `{ file = \"…\", LMUY = 0.8 }` with other values of some. They replace the other data of the tyre except for `damping_time`.";
         mounted: words::Mounted = "mounted", "Side of the vehicle, on which `wheel_axis` points to the left; offsets change their sign on the side for which the file was not measured; default: the side of the file.";
         stiffness: f64 = "stiffness", "Normal force per deflection; required without `magic_formula` \\[N/m\\].";
-        damping: f64 = "damping", "Normal force per deflection rate; default 0, or that of the file \\[N s/m\\].";
+        damping: f64 = "damping", "Normal force per deflection rate, without `magic_formula`; default 0 \\[N s/m\\].";
         friction_coefficient: f64 = "friction_coefficient", "Coefficient of friction; that of dry asphalt is the default; default 0.9.";
         slip_stiffness: f64 = "slip_stiffness", "Longitudinal force per slip and normal force, at small slip; required without `magic_formula`.";
         cornering_stiffness: f64 = "cornering_stiffness", "Lateral force per slip angle and normal force, at small angles; required without `magic_formula`.";
@@ -64,8 +64,8 @@ entries! {
         load_sensitivity: f64 = "load_sensitivity", "Decrease of friction with the normal force: μ/(1 + this N); default 0 \\[1/N\\].";
         road: Function = "road", "Height of an uneven road above the plane, along `normal`: an expression of `x` and `y`, a table over `x`, a grid `{ file = \"…\" }`, or a random profile `{ class = \"C\" }` of ISO 8608; x and y from `at_base`, in the plane \\[m\\].";
         road_direction: [f64; 3] = "road_direction", "Direction of x of the road at the start, global axes; its part in the plane counts.";
-        width: f64 = "width", "Width of the contact on an uneven road; default 0.6 of the radius \\[m\\].";
-        contact_length: f64 = "contact_length", "Length of the contact on an uneven road; default 0.4 of the radius \\[m\\].";
+        width: f64 = "width", "Width of the contact on an uneven road; default three fifths of the radius \\[m\\].";
+        contact_length: f64 = "contact_length", "Length of the contact on an uneven road; default two fifths of the radius \\[m\\].";
     }
 
     /// Rope that slides over several points without friction: pulleys, and hoists by its free length.
