@@ -69,7 +69,6 @@ kind = "dynamics"
 scheme = "radau-iia"
 end = 0.5
 step = 5e-4
-output_step = 0.1
 """
 
 

@@ -175,7 +175,15 @@ outputs = {{ angle = "arm.angle" }}
     options = {"stop_time": 0.2, "step_size": step, "output_interval": step, "output": ["arm.angle"]}
     there = simulate_fmu(str(tmp_path / "inner.fmu"), input=held, **options)
     here = result["torque.value"][np.isin(np.round(result.time / 1e-3), np.arange(0, 201, 10))]
-    np.testing.assert_allclose(here, there["arm.angle"][::2], rtol=0, atol=1e-12)
+    # The times of FMPy are sums of steps, so that the unit divides some of its own.
+    np.testing.assert_allclose(here, there["arm.angle"][::2], rtol=0, atol=1e-8)
+    inner = lissom.load(tmp_path / "inner.toml").simulation()
+    angles = [inner["arm.angle"]]
+    for time in times[:-1]:
+        inner.set("target", float(np.cos(20 * time)))
+        inner.step_to(time + step)
+        angles.append(inner["arm.angle"])
+    np.testing.assert_allclose(here, angles[::2], rtol=0, atol=1e-12)
 
     # Snapshots contain the state of the unit.
     simulation = outer.simulation()

@@ -8,8 +8,8 @@
 All quantities are in SI units. Exceptions are `ModelError` and `SolutionError`, with the texts of the command line.
 """
 
+import os
 import sys
-from pathlib import Path
 
 from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Reduced, Response
 from ._animation import Animation
@@ -52,4 +52,4 @@ __all__ = [
 # Units of other programs run in processes of their own: this interpreter again, with this package.
 _SERVE = "import sys; sys.path.insert(0, sys.argv[1]); from lissom._lissom import serve_unit; serve_unit()"
 if sys.executable:
-    set_unit_host(sys.executable, ["-c", _SERVE, str(Path(__file__).resolve().parent.parent)])
+    set_unit_host(sys.executable, ["-c", _SERVE, os.path.dirname(os.path.dirname(os.path.abspath(__file__)))])
