@@ -125,11 +125,6 @@ impl Drawing {
         self.shapes.push(Shape::Words { at, text, height, align, shade, is_upright: true });
     }
 
-    /// Number of polygons.
-    pub fn polygon_count(&self) -> usize {
-        self.shapes.iter().filter(|shape| matches!(shape, Shape::Polygon { .. })).count()
-    }
-
     /// Whether all positions are finite.
     pub(crate) fn check(&self) -> Result<(), DrawingError> {
         let is_placed = self.shapes.iter().all(|shape| {

@@ -3,9 +3,7 @@
 
 use std::ops::Mul;
 
-use crate::coefficients::{HalfAngle, exponential_values};
-use crate::pose::{Pose, stretch};
-use crate::screw::Screw;
+use crate::pose::Pose;
 use crate::{Matrix3, Matrix6, Rotation, Vector3, Vector6, skew};
 
 /// A rigid motion, or the frame to which it moves the base frame: it maps body coordinates `X` to `position +
@@ -76,16 +74,6 @@ impl Motion {
     #[inline]
     pub fn inverse_transform_point(&self, place: &Vector3) -> Vector3 {
         self.rotation.apply_inverse(&(place - self.position))
-    }
-
-    /// The displacement `(exp(ψ) - I) X` of the body point `X` by the increment `ψ`, in the body frame before the
-    /// increment; accurate relative to `u + θ × X` for the smallest `ψ`.
-    #[inline]
-    pub fn displacement_of_point(psi: &Vector6, point: &Vector3) -> Vector3 {
-        let Screw { translation: u, rotation: theta } = Screw::from(psi);
-        let q = theta.norm_squared();
-        let [b, c] = exponential_values(q, HalfAngle::from_square(q));
-        stretch(u.plus_cross(theta, point.into()), theta, b, c).into()
     }
 
     /// `Ad_H = [[R, x̃R], [0, R]]`: maps body twists to the base frame.

@@ -1,4 +1,4 @@
-//! Rotations as unit quaternions: exponential, logarithm, Cayley map, matrices. Independent of translations and
+//! Rotations as unit quaternions: exponential, logarithm, matrices. Independent of translations and
 //! tangent operators.
 
 use std::ops::Mul;
@@ -153,14 +153,6 @@ impl Rotation {
     pub fn about_axis(axis: &Vector3, angle: f64) -> Self {
         let (sine, cosine) = (0.5 * angle).sin_cos();
         Self { scalar: cosine, vector: axis * sine }
-    }
-
-    /// The Cayley map `(I - r̃/2)⁻¹ (I + r̃/2)`: the rotation by `2 atan(|r|/2)` about the direction of `r`.
-    #[inline]
-    pub fn cayley(r: &Vector3) -> Self {
-        let half = r * 0.5;
-        let scalar = 1.0 / (1.0 + half.norm_squared()).sqrt();
-        Self { scalar, vector: half * scalar }
     }
 
     /// This rotation with the quaternion normalised.

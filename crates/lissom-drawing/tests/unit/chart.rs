@@ -51,7 +51,7 @@ fn marks_stand_at_their_points() {
         let points = vec![(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
         let curve = Curve { points, mark: Some(mark), ..Curve::new(palette(0)) };
         let panel = Panel { x: Axis::new("t"), y: Axis::new("x"), curves: vec![curve] };
-        assert_eq!(Chart::new("marks", vec![panel]).draw().polygon_count(), 3);
+        assert_eq!(Chart::new("marks", vec![panel]).draw().svg().unwrap().matches("Z\" fill").count(), 3);
     }
 }
 

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use lissom_motion::{
-    CurvedTangent, DualMatrix, Matrix6, Motion, Pose, Rotation, Screw, ScrewTangent, Vector3, Vector6,
+    CurvedTangent, DualMatrix, Matrix6, Motion, Pose, Rotation, Screw, ScrewTangent, Vector6,
     coadjoint_matrix, inverse_tangent, inverse_tangent_times, inverse_tangent_transpose_times, lie_bracket,
-    lie_bracket_matrix, rotation_part, rotation_tangent, screw, tangent, tangent_derivative,
+    lie_bracket_matrix, rotation_part, rotation_tangent, tangent, tangent_derivative,
     tangent_derivative_rate, tangent_derivative_transpose_times, tangent_hessian, tangent_rate,
     tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
     translation_part,
@@ -199,14 +199,5 @@ proptest! {
         prop_assert!(error(&tangent_derivative(&d, &a), &by(&|d| tangent_times(&d, &a)), 1.0) < 1e-11);
         prop_assert!(error(&tangent_transpose_derivative(&d, &w), &by(&|d| tangent_transpose_times(&d, &w)), 1.0) < 1e-11);
         prop_assert!(error(&tangent_hessian(&d, &a, &w), &by(&|d| tangent_derivative_transpose_times(&d, &a, &w)), 1.0) < 1e-11);
-    }
-
-    #[test]
-    fn displacement_is_the_motion_of_a_point(d in moderate_twist(), p in plain_vector()) {
-        let point = translation_part(&p);
-        let displacement = Motion::displacement_of_point(&d, &point);
-        prop_assert!((displacement - (Motion::exponential(&d).transform_point(&point) - point)).amax() < 1e-14);
-        let pure = screw(&translation_part(&d), &Vector3::zeros());
-        prop_assert_eq!(Motion::displacement_of_point(&pure, &point), translation_part(&d));
     }
 }

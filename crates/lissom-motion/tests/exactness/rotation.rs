@@ -1,8 +1,8 @@
-//! Rotations: exponential and logarithm, quaternions, matrices, Cayley map, axes.
+//! Rotations: exponential and logarithm, quaternions, matrices, axes.
 
 use std::f64::consts::PI;
 
-use lissom_motion::{Matrix3, Rotation, Vector3, axial, rotation_part, skew, translation_part};
+use lissom_motion::{Matrix3, Rotation, Vector3, rotation_part, translation_part};
 use proptest::prelude::*;
 
 use crate::arguments::{any_twist, direction, nasty_angle, plain_vector};
@@ -103,17 +103,6 @@ proptest! {
         let strain = Matrix3::new(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z) * 10.0_f64.powf(size);
         let nearest = Rotation::from_matrix(&(rotation.matrix() * (Matrix3::identity() + strain)));
         prop_assert!(distance(nearest, rotation) < 1e-14);
-    }
-
-    #[test]
-    fn cayley_map_is_its_quotient(a in plain_vector(), size in -6.0..1.5) {
-        let r = translation_part(&a) * 10.0_f64.powf(size);
-        let rotation = Rotation::cayley(&r);
-        let half = skew(&r) * 0.5;
-        let residual = (Matrix3::identity() - half) * rotation.matrix() - (Matrix3::identity() + half);
-        prop_assert!(residual.amax() < 4e-15 * (1.0 + r.norm()));
-        // Axial part of the rotation: r / (1 + r·r/4).
-        prop_assert!((axial(&rotation.matrix()) * (1.0 + 0.25 * r.norm_squared()) - r).norm() < 4e-15 * r.norm() * (1.0 + r.norm_squared()));
     }
 
     #[test]

@@ -52,9 +52,8 @@ proptest! {
     }
 
     #[test]
-    fn small_increments_keep_their_digits(d in any_twist(), point in plain_vector(), scale in 0..300_i32) {
+    fn small_increments_keep_their_digits(d in any_twist(), scale in 0..300_i32) {
         let psi = d * 10.0_f64.powi(-scale);
-        let point = Vector3::new(point[0], point[1], point[2]);
         let series = exponential_series(&constants(&psi));
         let one = Wide::new(-1.0);
         let minus_identity = |i: usize, j: usize| if i == j { series[j][i].value + one } else { series[j][i].value };
@@ -63,12 +62,6 @@ proptest! {
         // The reference itself subtracts the identity from 31 digits; near a whole turn the difference has the error of the angle.
         let floor = theta.norm().max(1e-14);
         prop_assert!(error(&rotation_exponential_minus_identity(&theta), &reference, floor) < 4e-15);
-        let moved = Vector3::from_fn(|i, _| {
-            (0..3).fold(series[3][i].value, |sum, j| sum + minus_identity(i, j) * Wide::new(point[j])).value()
-        });
-        let size = psi.fixed_rows::<3>(0).norm() + theta.norm() * point.norm();
-        let displacement = Motion::displacement_of_point(&psi, &point);
-        prop_assert!((displacement - moved).amax() <= 4e-15 * size.max(1e-14), "{displacement} {moved}");
     }
 }
 
