@@ -14,6 +14,8 @@ pub enum PortType {
         /// Whether its axes are used, so that it cannot be a point mass; for joints their equations determine this.
         axes: bool,
     },
+    /// A set of nodes of a shell or solid.
+    Set,
     /// A location on nodes at the start [m]. Nodes without one have their own position.
     Location {
         /// Keys of the nodes that it is fixed to.
@@ -230,7 +232,8 @@ impl Ports {
     /// # Panics
     /// If no port names a node by this key.
     pub fn node(self, key: &str) -> usize {
-        let mut nodes = self.0.iter().filter(|port| matches!(port.holds, PortType::Node { .. }));
+        let mut nodes =
+            self.0.iter().filter(|port| matches!(port.holds, PortType::Node { .. } | PortType::Set));
         nodes.position(|port| port.key == key).expect("locations are declared of nodes of the same kind")
     }
 
@@ -238,6 +241,7 @@ impl Ports {
     pub fn node_port(self, index: usize) -> (&'static str, bool) {
         let mut nodes = self.0.iter().filter_map(|port| match port.holds {
             PortType::Node { axes, .. } => Some((port.key, axes)),
+            PortType::Set => Some((port.key, false)),
             _ => None,
         });
         nodes.nth(index).unwrap_or_else(|| (self.0.first().map_or("", |port| port.key), false))
@@ -245,7 +249,7 @@ impl Ports {
 
     /// Whether it connects two nodes, base and tip.
     pub fn connect_two_nodes(self) -> bool {
-        self.count(|holds| matches!(holds, PortType::Node { .. })) == 2
+        self.count(|holds| matches!(holds, PortType::Node { .. } | PortType::Set)) == 2
     }
 
     /// Number of the keys of locations.

@@ -5,6 +5,7 @@ mod coupling;
 mod drawn;
 mod groups;
 mod joint;
+mod mean_motion;
 mod motion;
 mod rigid_contact;
 mod signals;

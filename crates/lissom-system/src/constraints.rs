@@ -15,6 +15,7 @@ use lissom_mechanics::joints::constraint::{
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
 use lissom_mechanics::joints::latch::Latch;
+use lissom_mechanics::joints::mean_motion::MeanMotion;
 use lissom_mechanics::joints::no_slip::NoSlip;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
@@ -28,6 +29,7 @@ pub struct Constraints {
     pub drives: Vec<Drive>,
     pub couplings: Vec<Coupling>,
     pub sliders: Vec<Slider>,
+    pub mean_motions: Vec<MeanMotion>,
     pub wheels: Vec<NoSlip>,
     pub latches: Vec<Latch>,
     pub rigid_contacts: Vec<RigidConstraint>,
@@ -54,12 +56,13 @@ impl<C: Constraint> Family for Vec<C> {
 
 impl Constraints {
     /// All families, enumerated only here.
-    fn families(&self) -> [&dyn Family; 8] {
+    fn families(&self) -> [&dyn Family; 9] {
         [
             &self.joints,
             &self.drives,
             &self.couplings,
             &self.sliders,
+            &self.mean_motions,
             &self.wheels,
             &self.latches,
             &self.rigid_contacts,
@@ -68,7 +71,7 @@ impl Constraints {
     }
 
     /// Number of constraints of each family, for comparing models.
-    pub fn counts(&self) -> [usize; 8] {
+    pub fn counts(&self) -> [usize; 9] {
         self.families().map(Family::count)
     }
 

@@ -57,6 +57,7 @@ use lissom_mechanics::joints::blocks::{Batches, JointBatch};
 use lissom_mechanics::joints::constraint::{Port, ports_of};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::latch::Latch;
+use lissom_mechanics::joints::mean_motion::MeanMotion;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
@@ -164,6 +165,11 @@ impl System {
     /// All sliders along beams.
     pub fn sliders(&self) -> &[Slider] {
         &self.constraints.sliders
+    }
+
+    /// All bodies with the mean motion of a set of nodes.
+    pub fn mean_motions(&self) -> &[MeanMotion] {
+        &self.constraints.mean_motions
     }
 
     /// All latches.

@@ -41,6 +41,8 @@ pub enum Build {
     Motion,
     /// Constrains a point of the tip to slide along beams.
     AlongBeams,
+    /// Gives a body the mean motion of a set of nodes.
+    MeanOfSet,
     /// Has coordinates of its own, not between nodes.
     Free(MakeFree),
     /// Relates algebraic coordinates of other joints.

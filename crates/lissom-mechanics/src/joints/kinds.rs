@@ -3,7 +3,7 @@
 use super::kind::JointKind;
 use super::{
     cam, clamp, constant_velocity, cylindrical, distance, equation, gear, generalized_coordinates, generic,
-    inline, parallel_axes, perpendicular_axes, planar, point_in_plane, point_on_line,
+    inline, mean_motion, parallel_axes, perpendicular_axes, planar, point_in_plane, point_on_line,
     prescribed_displacement, prescribed_motion, prescribed_rotation, prismatic, revolute, rigid_link,
     rolling, screw, slider, spherical, swing_arm, telescopic_rod, universal, wheel_on_rail,
 };
@@ -20,6 +20,7 @@ pub static KINDS: &[JointKind] = &[
     generalized_coordinates::KIND,
     generic::KIND,
     inline::KIND,
+    mean_motion::KIND,
     parallel_axes::KIND,
     perpendicular_axes::KIND,
     planar::KIND,

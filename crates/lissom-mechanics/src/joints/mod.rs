@@ -29,6 +29,7 @@ pub mod inline;
 pub mod kind;
 mod kinds;
 pub mod latch;
+pub mod mean_motion;
 pub mod no_slip;
 pub mod parallel_axes;
 pub mod perpendicular_axes;

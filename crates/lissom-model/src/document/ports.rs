@@ -31,6 +31,7 @@ pub(super) fn read(
         let PortDeclaration { key, required, .. } = *port;
         let read = match port.holds {
             PortType::Node { moves, .. } => add_node(reader, key, moves, &mut own.nodes),
+            PortType::Set => add_set(reader, key, &mut own.nodes),
             // With a missing node its own error is enough.
             PortType::Location { .. } if !is_complete => None,
             PortType::Location { of, default } => location(reader, key, (ports, default), &own.nodes, places)
@@ -77,6 +78,19 @@ fn add_node(reader: &Reader<'_, '_>, key: &str, moves: bool, nodes: &mut Vec<Nod
     }
     nodes.push(NodeLocation { node, at: None, sheave: None });
     Some(())
+}
+
+/// Adds the set of nodes that a key names.
+fn add_set(reader: &Reader<'_, '_>, key: &str, nodes: &mut Vec<NodeLocation>) -> Option<()> {
+    add_node(reader, key, true, nodes)?;
+    let node = &nodes.last()?.node;
+    if matches!(node.value, NodeReference::Mesh { place: MeshPlace::Set(_), .. }) {
+        return Some(());
+    }
+    let message = format!("{} of {} is no set of nodes", reader.words(key), reader.what);
+    let help =
+        "name a side or set of a shell or solid, such as \"block.east\"; one node is joined by a `clamp`";
+    reader.context.fail(node.span, message, help)
 }
 
 /// The nodes `base` and `tip`, which differ.

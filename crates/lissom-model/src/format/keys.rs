@@ -259,7 +259,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
 /// The key of a port; none if it has no key of its own.
 pub(crate) fn of_port(port: &PortDeclaration) -> Option<Key> {
     let holds = match port.holds {
-        PortType::Node { .. } => Shape::Node,
+        PortType::Node { .. } | PortType::Set => Shape::Node,
         PortType::Location { .. } => Shape::Place,
         PortType::Direction(None) => Shape::Direction,
         PortType::Direction(Some(axis)) => Shape::DirectionOr(axis),

@@ -29,6 +29,7 @@ const OTHERS: &[(&str, &[&str])] = &[
     ("joint_torque", &["joint_moment", "motor", "motor_torque", "actuator", "torque_on_joint"]),
     ("loads", &["forces", "force", "moments"]),
     ("mass", &["m", "weight"]),
+    ("mean_motion", &["rbe3", "distributing_coupling", "distributed_coupling", "averaged_interface"]),
     ("modes", &["modal", "eigenvalues", "eigenmodes", "frequencies"]),
     ("nu", &["poisson", "poissons_ratio", "poisson_ratio"]),
     ("on", &["body", "node", "part", "attached_to"]),

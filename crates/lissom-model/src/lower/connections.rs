@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use lissom_mechanics::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
-use lissom_mechanics::joints::{self, JointKind};
+use lissom_mechanics::joints::{self, Build, JointKind};
 use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_mechanics::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_mechanics::signals::Argument;
@@ -98,6 +98,12 @@ fn joint(
         Some((coordinates, parameters)) => (coordinates, Cow::Owned(parameters)),
         None => (ports::coordinates(component, builder, names)?, Cow::Borrowed(&component.parameters)),
     };
+    if matches!(kind.build, Build::MeanOfSet) {
+        let (nodes, shares) = ports::with_shares(component, names)?;
+        let attachment = JointAttachment { nodes, shares, ..JointAttachment::default() };
+        let added = builder.add_joint_of_kind(name, kind, attachment, &parameters);
+        return added.map(drop).map_err(|error| parameter_problem(component, &error));
+    }
     let mut all = Vec::new();
     for nodes in ports::of_sets(component, builder, names)? {
         if let [(base, _), (tip, _)] = nodes[..]
@@ -131,6 +137,7 @@ fn joint_between(
         on_tip: on_tip.map(|&OnTip { at, axis, second_axis }| PlaceOnTip { at, axis, second_axis }),
         coordinates,
         beams: ports::beam_chain(document, component, builder, names)?,
+        ..JointAttachment::default()
     };
     builder
         .add_joint_of_kind(&component.name.value, kind, attachment, parameters)

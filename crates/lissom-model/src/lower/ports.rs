@@ -79,6 +79,18 @@ pub(super) fn of_sets(
     Ok(found[leading].iter().map(at_node).collect())
 }
 
+/// All nodes of a component's sets in their order, and their shares.
+pub(super) fn with_shares(component: &Component, names: &Names) -> Result<(NodesOfJoint, Vec<f64>), Problem> {
+    let mut all = (Vec::new(), Vec::new());
+    for own in &component.attachment.nodes {
+        for (node, share) in names.nodes(&own.node)? {
+            all.0.push((node, None));
+            all.1.push(share);
+        }
+    }
+    Ok(all)
+}
+
 /// Nodes of a set on which a component acts, each with its share; none if it acts on one node, or on something else.
 pub(super) fn spread(
     component: &Component,

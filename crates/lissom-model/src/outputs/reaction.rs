@@ -51,6 +51,9 @@ fn quantity(output: &Output, system: &System, _: &Subjects<'_>) -> Found {
     if let Some(index) = system.sliders().iter().position(|slider| slider.name == name.value) {
         return Ok(Arc::new(OfSlider { index, is_aligned: system.sliders()[index].equations() > 3 }));
     }
+    if let Some(index) = system.mean_motions().iter().position(|own| own.name == name.value) {
+        return Ok(Arc::new(OfMeanMotion(index)));
+    }
     if let Some(index) = system.couplings().iter().position(|coupling| coupling.name == name.value) {
         return Ok(Arc::new(OfCoupling {
             index,
@@ -134,6 +137,17 @@ impl OutputQuantity for OfJoints {
             moment += rotation_part(&reaction) + (place(joint) - middle).cross(&own);
         }
         out.extend(force.iter().chain(&moment));
+    }
+}
+
+/// Force and moment of a set of nodes on the body that follows it, about the mean of the set, global axes.
+struct OfMeanMotion(usize);
+
+impl OutputQuantity for OfMeanMotion {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let own = &at.system.mean_motions()[self.0];
+        let multipliers = &at.state.multipliers[own.first_multiplier..];
+        out.extend(own.reaction(at.motion(), multipliers).iter().flat_map(|part| part.iter()));
     }
 }
 

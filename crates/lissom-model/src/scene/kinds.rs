@@ -75,6 +75,9 @@ fn joint(kind: &str) -> Option<Drawn> {
             base([vec![b.block([1.3, 1.3, 1.3], [0.0; 3], Light)], pins.to_vec()].concat())
         }),
         "clamp" => Solids(|[b, _]| base(vec![b.block([1.5, 1.5, 1.5], [0.0; 3], Dark)])),
+        "mean_motion" => WithRod(|[b, t]| {
+            [vec![b.ball(0.5, [0.0; 3], Light)], vec![t.block([1.1, 1.1, 1.1], [0.0; 3], Dark)]]
+        }),
         "distance" => {
             WithRod(|[b, t]| [vec![b.ball(0.6, [0.0; 3], Light)], vec![t.ball(0.6, [0.0; 3], Light)]])
         }

@@ -31,6 +31,8 @@ pub struct JointAttachment {
     pub on_tip: Option<PlaceOnTip>,
     /// Coordinates of other joints.
     pub coordinates: Vec<CoordinateId>,
+    /// Share of each node of a set, which are the first nodes; their sum is one.
+    pub shares: Vec<f64>,
     /// Beams.
     pub beams: BeamChain,
 }
@@ -93,6 +95,7 @@ impl Builder {
                 let added = self.add_slider(name, (nodes, arc_lengths), (tip, at), &orientation);
                 added.map(|coordinate| vec![coordinate])
             }
+            Build::MeanOfSet => self.add_mean_motion(name, &attachment).map(|()| Vec::new()),
             Build::Free(_) => self.add_free_coordinates(name, kind, parameters),
             Build::Coupling(_) => {
                 self.add_coupling(name, kind, &attachment.coordinates, parameters).map(|()| Vec::new())

@@ -88,6 +88,13 @@ pub(crate) fn joint_attachment(
                 own.coordinates = join(builder, &joints::cylindrical::KIND);
             }
             PortType::OnlyCoordinate(_) | PortType::NamedCoordinates => {}
+            PortType::Set => {
+                own.nodes.extend(
+                    (0..5).map(|_| (builder.add_node("node", random.motion(), Freedoms::Full), None)),
+                );
+                // Some are negative, as those of corners of quadratic faces.
+                own.shares = vec![-0.02, 0.3, 0.3, 0.2, 0.22];
+            }
             PortType::Beams => (own.beams, at) = line(builder, random),
             other => panic!("no joint has a port {other:?}"),
         }

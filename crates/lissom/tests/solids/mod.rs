@@ -4,6 +4,7 @@ mod contacts;
 mod damping;
 mod dynamics;
 mod examples;
+mod mean_motion;
 mod meshes;
 mod messages;
 mod pressure;
