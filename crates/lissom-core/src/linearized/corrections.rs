@@ -42,6 +42,7 @@ impl Reduction {
         map.view_mut((0, 0), (kept, kept)).fill_with_identity();
         map.view_mut((kept, kept), shapes.shape()).copy_from(&shapes);
         let through = |matrix: &DMatrix<f64>| map.tr_mul(&(matrix * &map));
+        self.shapes = &self.shapes * &map;
         let own = &mut self.matrices;
         let all_stiffness = own.stiffness.clone();
         own.mass = through(&own.mass);

@@ -17,7 +17,7 @@
 
 use lissom_motion::{Matrix3, Vector3, skew};
 use lissom_solver::Pattern;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::cubic::SecondOrder;
 use super::mode::{Completeness, ModeError, ModeOptions};
@@ -115,6 +115,8 @@ pub struct Reduction {
     pub is_counted: bool,
     /// Number of unknowns that were reduced.
     pub unknowns: usize,
+    /// Displacements of the unknowns that were reduced, by row of the layout, for each unknown of the matrices.
+    pub shapes: DMatrix<f64>,
     /// Second-order terms over all shapes; [`Self::with_modes`] builds matrices from them.
     pub(super) second_order: Option<SecondOrder>,
 }
@@ -134,12 +136,12 @@ pub struct Assembly<'a> {
 }
 
 impl Assembly<'_> {
-    /// Reduces to the interfaces and at most this number of modes.
+    /// Reduces to the interfaces and at most this number of modes with fixed interfaces, or of the free assembly.
     ///
     /// # Errors
     /// If the assembly with fixed interfaces is a mechanism, not elastic, or not in equilibrium, or if something other than the
     /// interfaces supports it.
-    pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
+    pub fn reduce(&self, modes: usize, are_free: bool) -> Result<Reduction, ReductionError> {
         refuse(self.free)?;
         let mut model =
             self.locked.map(|system| LinearModel::of(system, self.state, self.solver)).transpose()?;
@@ -162,7 +164,9 @@ impl Assembly<'_> {
                 return Err(ReductionError::NotConservative {});
             }
             model.is_conservative = true;
-            if modes > 0 {
+            if modes > 0 && are_free {
+                is_counted = self.add_free_modes(modes, &whole, (&mut columns, &mut frequencies))?;
+            } else if modes > 0 {
                 let found = model.modes(&ModeOptions { count: modes, shift: None })?;
                 is_counted = found.completeness == Completeness::Counted;
                 for mode in found.modes {
@@ -191,6 +195,9 @@ impl Assembly<'_> {
             corrections: 0,
             is_counted,
             unknowns: self.free.layout().coordinate_count(),
+            shapes: DMatrix::from_fn(self.free.layout().coordinate_count(), columns.len(), |i, j| {
+                columns[j][i]
+            }),
             second_order,
         })
     }
@@ -265,6 +272,78 @@ impl Assembly<'_> {
             column[free_count..].fill(0.0);
         }
         Ok(())
+    }
+
+    /// Adds the elastic modes of the free assembly, less the static displacements with the same motion of the interfaces: together
+    /// with these they span the modes. They are combined to natural modes with fixed interfaces. Returns whether a count
+    /// shows that none was missed.
+    fn add_free_modes(
+        &self,
+        count: usize,
+        whole: &Whole,
+        (columns, frequencies): (&mut Vec<Vec<f64>>, &mut Vec<f64>),
+    ) -> Result<bool, ReductionError> {
+        const RIGID_MOTIONS: usize = 6;
+        let mut model = LinearModel::of(self.free, self.state, self.solver)?;
+        if model.imbalance() > round_off::POSITION {
+            return Err(ReductionError::Unbalanced { displacement: model.imbalance() });
+        }
+        model.parts.damping.fill(0.0);
+        model.is_conservative = true;
+        let found = model.modes(&ModeOptions { count: count + RIGID_MOTIONS, shift: None })?;
+        let layout = self.free.layout();
+        let size = layout.coordinate_count();
+        let without = |shape: Vec<f64>| {
+            let mut own = shape.clone();
+            for (k, column) in columns.iter().enumerate() {
+                let node = self.interfaces[k / 6];
+                let rows = &layout.rows_of_node(node)[k % 6 / 3 * 3..][..3];
+                let local = Vector3::from_fn(|i, _| shape[rows[i] as usize]);
+                let moved = self.state.kinematics.nodes[node].frame.rotation.apply(&local)[k % 3];
+                own.iter_mut().zip(column).for_each(|(own, by)| *own -= moved * by);
+            }
+            own
+        };
+        let shapes: Vec<Vec<f64>> = (found.modes.iter().skip(RIGID_MOTIONS))
+            .map(|mode| without(mode.shape.iter().take(size).map(|own| own.re).collect()))
+            .collect();
+        let all = DMatrix::from_fn(size, shapes.len(), |i, j| shapes[j][i]);
+        let among = |values: &[f64], all: &DMatrix<f64>| {
+            let mut image = vec![0.0; whole.size];
+            let mut images = DMatrix::zeros(size, all.ncols());
+            for (j, column) in all.column_iter().enumerate() {
+                let filled: Vec<f64> =
+                    column.iter().copied().chain(std::iter::repeat_n(0.0, whole.size - size)).collect();
+                self.free.pattern().multiply(values, &filled, &mut image);
+                images.column_mut(j).copy_from_slice(&image[..size]);
+            }
+            let matrix = all.tr_mul(&images);
+            0.5 * (&matrix + matrix.transpose())
+        };
+        // Modes whose difference from static shapes is round-off are none.
+        let SymmetricEigen { eigenvectors, eigenvalues } =
+            SymmetricEigen::new(among(&whole.parts.mass, &all));
+        let kept: Vec<usize> =
+            (0..eigenvalues.len()).filter(|&k| eigenvalues[k] > 1e-10 * eigenvalues.amax()).collect();
+        let unit = DMatrix::from_fn(all.ncols(), kept.len(), |i, j| {
+            eigenvectors[(i, kept[j])] / eigenvalues[kept[j]].sqrt()
+        });
+        let all = all * unit;
+        let SymmetricEigen { eigenvectors, eigenvalues } =
+            SymmetricEigen::new(among(&whole.parts.stiffness, &all));
+        let mut order: Vec<usize> = (0..eigenvalues.len()).collect();
+        order.sort_by(|&a, &b| eigenvalues[a].total_cmp(&eigenvalues[b]));
+        let all = all * eigenvectors;
+        for k in order {
+            if eigenvalues[k] <= 0.0 {
+                return Err(ReductionError::Unstable {});
+            }
+            let mut column = all.column(k).iter().copied().collect::<Vec<f64>>();
+            column.resize(whole.size, 0.0);
+            columns.push(column);
+            frequencies.push(eigenvalues[k].sqrt() / std::f64::consts::TAU);
+        }
+        Ok(found.completeness == Completeness::Counted)
     }
 
     /// Projects the matrices on the columns.

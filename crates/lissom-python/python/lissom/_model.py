@@ -240,6 +240,8 @@ class Model(ModelTables):
         *,
         parts: str | Sequence[str] = (),
         corrections: bool = True,
+        free_modes: bool = False,
+        recover: str | Sequence[str] = (),
         about: About = "static",
         name: str | None = None,
     ) -> Reduced:
@@ -250,6 +252,8 @@ class Model(ModelTables):
             count: number of modes with fixed interfaces, 0 at least.
             parts: parts to be reduced; default: all.
             corrections: whether shapes compensate for truncated modes where loads and rotation change the stiffness.
+            free_modes: whether modes are those of the free parts, without corrections, instead of those with fixed interfaces.
+            recover: outputs of the model whose linear components are the rows of the matrix `recovery`.
             about: the state, as for `modes`, without `"rotation"`.
             name: name of the superelement; default: that of the only part, or of the model file.
 
@@ -258,6 +262,7 @@ class Model(ModelTables):
             elastic assembly.
         """
         chosen = {"parts": _names(parts), "interfaces": _names(interfaces), "modes": _at_least(0, count, "count")}
+        chosen |= {"recover": _names(recover), "free_modes": free_modes}
         return self._warned(Reduced(self._analysed("reduce", **chosen, corrections=corrections, about=_about(about), name=name)))
 
     def path(self, **analysis: Any) -> Path:

@@ -64,6 +64,8 @@ fn a_reduced_panel_has_its_first_frequencies() {
         interfaces: ["panel@0", "0.5", "panel.motor"].map(str::to_owned).to_vec(),
         modes: 12,
         corrections: false,
+        free_modes: false,
+        recover: Vec::new(),
         about: OperatingPoint::Static,
         name: Some("part".to_owned()),
     };
@@ -94,6 +96,8 @@ fn a_panel_with_an_offset_is_reduced() {
         interfaces: ["a", "b"].map(str::to_owned).to_vec(),
         modes: 4,
         corrections: false,
+        free_modes: false,
+        recover: Vec::new(),
         about: OperatingPoint::Undeformed,
         name: Some("part".to_owned()),
     };

@@ -5,6 +5,7 @@ use crate::support::runs::{column, last, set};
 mod against_beams;
 mod deformed;
 mod load_stiffness;
+mod mean_motion;
 mod moments;
 mod outputs;
 
@@ -48,6 +49,8 @@ fn request(interfaces: &[&str], modes: usize) -> ReduceRequest {
         interfaces: interfaces.iter().map(|name| (*name).to_owned()).collect(),
         modes,
         corrections: true,
+        free_modes: false,
+        recover: Vec::new(),
         about: OperatingPoint::Static,
         name: Some("part".to_owned()),
     }
@@ -334,6 +337,8 @@ fn a_reduced_part_can_be_reduced_again() {
         interfaces: vec!["part.bar_start".to_owned()],
         modes: 10,
         corrections: true,
+        free_modes: false,
+        recover: Vec::new(),
         about: OperatingPoint::Static,
         name: Some("again".to_owned()),
     };
@@ -522,6 +527,8 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
         interfaces: ["rod.start", "rod@0.5", "rod.end"].map(str::to_owned).to_vec(),
         modes: 4,
         corrections: false,
+        free_modes: false,
+        recover: Vec::new(),
         about: OperatingPoint::Static,
         name: Some("rod".to_owned()),
     };

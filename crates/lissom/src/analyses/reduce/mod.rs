@@ -1,6 +1,7 @@
 //! Reduction of a flexible assembly to the matrices of a superelement: selection of the parts, their state, and the files
 //! that describe the superelement.
 
+mod recovery;
 mod report;
 
 use lissom_core::catalogued;
@@ -8,6 +9,7 @@ use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use self::recovery::Recovery;
 use crate::start::{Lowered, lower, lower_locked};
 use lissom_core::flexible::superelement::ReducedMatrices;
 use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
@@ -40,6 +42,7 @@ const SOUGHT: [usize; 2] = [3, 24];
     command(after_help = "\
 Examples:
   lissom reduce examples/tip-crank.toml --interfaces beam.start,beam.end --modes 6
+  lissom reduce bracket.toml --interfaces hub,pin --modes 8 --recover root_stress
   lissom reduce turbine.toml --part blade1 --interfaces blade1.beam.start --modes 10 --name blade
 
 Exit code: 0 success; 2 wrong model or command line; 3 no such state, or parts that are not one elastic assembly.")
@@ -57,6 +60,12 @@ pub struct ReduceRequest {
     /// Omit correction shapes, which compensate for truncated modes where loads and rotation change the stiffness.
     #[cfg_attr(feature = "clap", arg(long = "modes-alone", action = clap::ArgAction::SetFalse))]
     pub corrections: bool,
+    /// Modes of the free parts instead of those with fixed interfaces, without correction shapes.
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub free_modes: bool,
+    /// Outputs of the model to be recovered: stresses, forces and displacements in the reduced parts, as a matrix `recovery`.
+    #[cfg_attr(feature = "clap", arg(long, value_name = "OUTPUT,…", value_delimiter = ','))]
+    pub recover: Vec<String>,
     /// State about which the model is reduced: `static`, `undeformed` or a time of the model's analysis [s].
     #[cfg_attr(
         feature = "clap",
@@ -105,6 +114,8 @@ pub struct ReduceReport {
     pub corrections: usize,
     /// Names of the interfaces.
     pub interfaces: Vec<String>,
+    /// Names of the rows of the matrix `recovery`, with their units.
+    pub recovered: Vec<(String, String)>,
     /// Coordinates before and after.
     pub unknowns: [usize; 2],
     /// Mass [kg].
@@ -167,8 +178,8 @@ pub fn reduce(model: &Model, request: &ReduceRequest) -> Result<ReduceReport, Re
         warnings.push(AnalysisWarning::GravityOmitted);
     }
     let chosen = Chosen::of(&document, request, &names.names)?;
-    let own = chosen.document(&document)?;
-    let Lowered { system, mut state, settings, names: own_names, .. } =
+    let own = chosen.document(&document, &request.recover)?;
+    let Lowered { system, mut state, settings, names: own_names, channels, .. } =
         lower(&own).map_err(ModesError::from)?;
     take_places(system.layout(), &mut state.kinematics, (&layout, &at))?;
     let interfaces: Vec<NodeId> =
@@ -192,8 +203,10 @@ pub fn reduce(model: &Model, request: &ReduceRequest) -> Result<ReduceReport, Re
     };
     // The lowest mode shows whether a part can move freely with fixed interfaces, even if no mode is requested. The
     // estimate of the effect of loads on the stiffness needs the omitted modes, with and without corrections.
-    let sought = SOUGHT[0] * request.modes + SOUGHT[1];
-    let found = assembly.reduce(sought.min(inner))?.with_modes(request.modes, request.corrections);
+    // Omitted modes with fixed interfaces would take with them parts of the free ones.
+    let sought = if request.free_modes { request.modes } else { SOUGHT[0] * request.modes + SOUGHT[1] };
+    let found = assembly.reduce(sought.min(inner), request.free_modes)?;
+    let found = found.with_modes(request.modes, request.corrections && !request.free_modes);
     if found.frequencies.len() < request.modes {
         let number = found.frequencies.len();
         return question(format!(
@@ -206,14 +219,16 @@ pub fn reduce(model: &Model, request: &ReduceRequest) -> Result<ReduceReport, Re
     if found.matrices.geometric.is_none() && inner > 0 {
         warnings.push(AnalysisWarning::FirstOrder);
     }
+    let recovery = Recovery::of(&channels, (&system, &state), &found)?;
     let matrices = found.matrices.check(&found.places)?;
     let labels: Vec<String> = chosen.interfaces.iter().map(|name| label(name)).collect();
     let unknowns = [found.unknowns, matrices.mass.nrows()];
     let mass = (0..3).map(|k| total(&matrices, labels.len(), k)).sum::<f64>() / 3.0;
     let name = request.name(model);
     Ok(ReduceReport {
-        files: report::files(&name, (&labels, &found.places), &matrices),
-        archive: report::archive((&labels, &found.places), &matrices)?,
+        files: report::files(&name, (&labels, &found.places), (&matrices, &recovery)),
+        archive: report::archive((&labels, &found.places), (&matrices, &recovery))?,
+        recovered: recovery.names,
         frequencies: found.frequencies,
         corrections: found.corrections,
         interfaces: labels,
@@ -465,8 +480,16 @@ impl Chosen {
     }
 
     /// The document of the parts only: external components on the interfaces are omitted.
-    fn document(&self, whole: &Document) -> Result<Document, ReduceError> {
+    fn document(&self, whole: &Document, recovered: &[String]) -> Result<Document, ReduceError> {
         let mut own = whole.clone();
+        let known: Vec<&str> = own.outputs.iter().map(|output| output.name.value.as_str()).collect();
+        if let Some(name) = recovered.iter().find(|name| !known.contains(&name.as_str())) {
+            return question(format!(
+                "there is no output `{name}` to recover; outputs are {}",
+                known.join(", ")
+            ));
+        }
+        own.outputs.retain(|output| recovered.contains(&output.name.value));
         let is_in = |name: &String| self.parts.contains(name);
         own.beams.retain(|beam| is_in(&beam.name.value));
         own.shells.retain(|shell| is_in(&shell.name.value));
@@ -474,7 +497,6 @@ impl Chosen {
         own.bodies.retain(|body| is_in(&body.name.value));
         own.point_masses.retain(|mass| is_in(&mass.name.value));
         own.superelements.retain(|element| is_in(&element.name.value));
-        own.outputs.clear();
         own.events.clear();
         own.signals.clear();
         own.states.clear();

@@ -12,6 +12,7 @@ use lissom_motion::Vector3;
 use serde_json::{Value, json};
 
 use super::ReduceReport;
+use super::recovery::Recovery;
 use crate::analyses::interface::AnalysisReport;
 use crate::encodings::npy;
 use crate::results::folder::{FolderError, ResultFolder};
@@ -23,7 +24,7 @@ const LISTED: usize = 6;
 pub(super) fn files(
     name: &str,
     (labels, places): (&[String], &[Vector3]),
-    matrices: &ReducedMatrices,
+    (matrices, recovery): (&ReducedMatrices, &Recovery),
 ) -> Vec<(String, String)> {
     let mut keys = vec![("mass", &matrices.mass), ("stiffness", &matrices.stiffness)];
     if let Damping::Matrix(damping) = &matrices.damping {
@@ -76,6 +77,18 @@ pub(super) fn files(
             });
         files.push((file, column));
     }
+    if !recovery.names.is_empty() {
+        let file = format!("{name}-recovery.mtx");
+        let _ = writeln!(text, "# Components of an output of kind \"recovered\":");
+        for (row, (output, unit)) in recovery.names.iter().enumerate() {
+            let _ = writeln!(text, "#   r{} = {output} [{unit}]", row + 1);
+        }
+        let _ = writeln!(text, "recovery = {}", quoted(&file));
+        let rows = recovery.names.len();
+        let matrix =
+            full_matrix(&format!("recovery of {name}: {comment}"), [rows, size], |i, j| recovery.rows[i][j]);
+        files.push((file, matrix));
+    }
     files.push((format!("{name}.toml"), text));
     files
 }
@@ -83,7 +96,7 @@ pub(super) fn files(
 /// The matrices as arrays for NumPy.
 pub(super) fn archive(
     (labels, places): (&[String], &[Vector3]),
-    matrices: &ReducedMatrices,
+    (matrices, recovery): (&ReducedMatrices, &Recovery),
 ) -> std::io::Result<Vec<u8>> {
     let size = matrices.mass.nrows();
     // Rows and columns are equal: the matrices are symmetric.
@@ -103,6 +116,9 @@ pub(super) fn archive(
         let stacked = geometric.stacked();
         let by_rows = stacked.transpose();
         arrays.push(("geometric.npy", npy::numbers(&[stacked.nrows(), size], by_rows.as_slice())));
+    }
+    if !recovery.names.is_empty() {
+        arrays.push(("recovery.npy", npy::numbers(&[recovery.rows.len(), size], &recovery.rows.concat())));
     }
     let flat: Vec<f64> = places.iter().flat_map(|place| place.iter().copied()).collect();
     arrays.push(("interfaces.npy", npy::texts(labels)));
@@ -127,6 +143,7 @@ impl AnalysisReport for ReduceReport {
         insert("reduced_unknowns", json!(self.unknowns[1]));
         insert("frequencies", json!(self.frequencies));
         insert("corrections", json!(self.corrections));
+        insert("recovered", self.recovered.iter().map(|(name, _)| json!(name)).collect());
         insert("mass", json!(self.mass));
         insert("preloaded", json!(self.is_preloaded));
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
