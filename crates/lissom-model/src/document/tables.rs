@@ -59,6 +59,8 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "states" => (None, vec![single(state())]),
         "events" => (None, vec![single(super::events::keys())]),
         "units" => (None, vec![single(super::units::keys())]),
+        "fluids" => (None, vec![single(super::hydraulics::fluid_keys())]),
+        "hydraulics" => (Some("kind"), super::hydraulics::variants()),
         "initial" => (None, vec![single(initial())]),
         "assembly" => (None, vec![single(super::assembly::keys())]),
         "outputs" => (Some("kind"), outputs()),
@@ -297,7 +299,12 @@ fn output_subject(subject: Subject) -> Option<Key> {
         }
         Subject::Beam => required("of", Shape::Name("beams"), "", "the beam"),
         Subject::Superelement => required("of", Shape::Name("superelements"), "", "the superelement"),
-        Subject::Signal => required("of", Shape::Text, "", "the name of a signal, an input or a state"),
+        Subject::Signal => required(
+            "of",
+            Shape::Text,
+            "",
+            "the name of a signal, an input or a state, or of a component of a hydraulic part",
+        ),
         Subject::Expression => {
             let words = "expression such as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs";
             required("value", Shape::Formula, "", words)

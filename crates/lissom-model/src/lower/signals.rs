@@ -388,6 +388,11 @@ fn resolve(
             help.unwrap_or_else(|| format!("add it to `outputs` of the unit: {component} = \"VARIABLE\""));
         return Err(problem(format!("the unit `{owner}` has no output `{component}`")).help(help));
     }
+    if let Some(part) = document.hydraulics.iter().find(|part| part.name.value == owner) {
+        let help = suggest::help(component, part.components.iter().map(|(word, _)| *word));
+        let message = format!("the hydraulic part `{owner}` has no component `{component}`");
+        return Err(problem(message).maybe_help(help));
+    }
     if let Some(of) = outputs_of_signals(document, owner) {
         let output = &of.name.value;
         if component != "value" {
