@@ -258,6 +258,12 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
 fn state() -> Vec<Key> {
     vec![
         required("derivative", Shape::Formula, "1/s", "time derivative"),
+        unitless(
+            "algebraic",
+            Shape::Flag,
+            "whether the value makes `derivative` zero at all times, as that of an infinitely fast state; `start` is a first guess",
+        )
+        .or_flag(false),
         unitless("start", Shape::Number, "value at the start").or_number(0.0),
         unitless(
             "magnitude",

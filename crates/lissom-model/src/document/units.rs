@@ -148,9 +148,11 @@ pub(super) fn check_name(context: &Context<'_>, of: &str, name: &str, span: Span
             "use letters, digits and `_`, a letter first, and no word of expressions such as `pi` or `t`";
         return context.fail(span, message, help);
     }
-    for (table, what) in
-        [("joints", "joint"), ("outputs", "output"), ("signals", "signal"), ("hydraulics", "hydraulic part")]
-    {
+    // Hydraulic parts add springs and loads of their own names.
+    let forces = [("springs", "spring"), ("loads", "load")].into_iter().filter(|_| of != "unit");
+    let owners =
+        [("joints", "joint"), ("outputs", "output"), ("signals", "signal"), ("hydraulics", "hydraulic part")];
+    for (table, what) in owners.into_iter().chain(forces) {
         if what != of && context.has(table, name) {
             let message =
                 format!("the {of} `{name}` has the name of a {what}, so `{name}.y` would be ambiguous");

@@ -46,8 +46,14 @@ pub(super) fn add(
     let mut states = Vec::new();
     let sorted_states = by_name(&document.states, |state| &state.name.value);
     for state in &sorted_states {
-        let coordinate = builder.add_state(&state.name.value, state.start, state.magnitude);
-        let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
+        let (add, of): (fn(&mut Builder, &str, f64, f64) -> CoordinateId, _) =
+            if state.is_balance { (Builder::add_unknown, Of::Rate) } else { (Builder::add_state, Of::Value) };
+        let coordinate = add(builder, &state.name.value, state.start, state.magnitude);
+        let measured = builder.add_measurement(Coordinate::new(coordinate, of));
+        if state.is_limited {
+            let node = state.name.value.trim_end_matches(".pressure");
+            builder.limit_pressure(Subject::new("node", node), measured, 0.0);
+        }
         names.signals.insert(state.name.value.clone(), Argument::Measured(measured));
         states.push(coordinate);
     }
@@ -97,6 +103,7 @@ pub(super) fn add(
     for (state, coordinate) in sorted_states.into_iter().zip(states) {
         let subject = Subject::new("state", &state.name.value).component("`derivative`");
         match add_formula(document, builder, names, &subject, &state.derivative) {
+            Ok(signal) if state.is_balance => builder.balance(coordinate, signal),
             Ok(signal) => builder.drive_state(coordinate, signal),
             Err(problem) => problems.push(problem),
         }

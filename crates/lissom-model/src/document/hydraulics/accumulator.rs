@@ -42,7 +42,7 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
             ("r", rate.into()),
         ];
         net.signal(part, "volume", ("V - V*(p0/max(p, p0))^(1/n)", &terms))?;
-        net.signal(part, "compliance", ("if(p > p0, V/(n*p)*(p0/max(p, p0))^(1/n), 0)", &terms))?;
+        net.signal(part, "compliance", ("if(p >= p0, V/(n*p)*(p0/max(p, p0))^(1/n), 0)", &terms))?;
         net.signal(part, "flow", ("c*r", &terms))?;
         // The node stores what flows into it, so that its pressure has a rate without an algebraic loop.
         net.compliance(part, 0, "compliance");

@@ -67,7 +67,7 @@ impl Fluid {
     }
 
     /// Compressibility, 1/K(p), as a template over the pressure `p` with its numbers. Liquid and air change their volumes
-    /// independently (source: hydraulic-fluid):
+    /// independently [Gholizadeh et al. 2011]:
     ///
     /// ```text
     /// liquid  l = (1 - a) exp(-(p - p0)/K),   air  g = a (p0/p)^(1/n),   1/K(p) = (l/K + g/(n p))/(l + g)

@@ -75,7 +75,7 @@ impl<'r, 'c, 'a> Part<'r, 'c, 'a> {
             let other = kind_of(context, &node.value)?;
             if !other.ports.is_empty() {
                 let message =
-                    format!("{words} names `{}`, which is a `{}` and no node", node.value, other.word);
+                    format!("{words} names `{}`, which is of kind `{}` and no node", node.value, other.word);
                 let help = "components are connected at nodes: add an entry of kind `volume`, `pressure` or `junction`, and \
                             name it in both";
                 return context.fail(node.span, message, help);
@@ -221,17 +221,17 @@ impl<'c, 'a> Net<'c, 'a> {
         Some(())
     }
 
-    /// Adds a state of a part.
+    /// Adds a state of a part; `is_limited` if it is a pressure of a fluid without air.
     pub(super) fn state(
         &mut self,
         part: &Part<'_, '_, '_>,
-        (word, magnitude, start): (&str, f64, f64),
+        (word, magnitude, start, is_limited): (&str, f64, f64, bool),
         (template, terms): (&str, &[(&str, Term)]),
     ) -> Option<()> {
         let span = part.reader.name;
         let derivative = Located::new(formula(template, terms)?, span);
         let name = Located::new(part.component(word), span);
-        self.states.push(StateEntry { name, derivative, start, magnitude });
+        self.states.push(StateEntry { name, derivative, is_limited, is_balance: false, start, magnitude });
         Some(())
     }
 
@@ -348,6 +348,7 @@ impl<'c, 'a> Net<'c, 'a> {
         match node.kind {
             NodeKind::Volume { volume, start } => {
                 let fluid = fluid::of(self.context, &self.fluids, name)?;
+                let is_limited = !fluid.has_air();
                 let (compressibility, fluid) = fluid.compressibility();
                 let mut terms: Vec<(String, Term)> = terms.map(|(own, term)| (own.to_owned(), term)).into();
                 terms.extend(fluid.into_iter().map(|(own, term)| (own.to_owned(), term)));
@@ -365,8 +366,32 @@ impl<'c, 'a> Net<'c, 'a> {
                 self.add_signal(whole("rate"), span, (&rate, &borrowed(&terms)))?;
                 let derivative = Located::new(formula("r", &[("r", Term::Name(whole("rate")))])?, span);
                 let (name, magnitude) = (Located::new(pressure, span), ATMOSPHERE);
-                self.states.push(StateEntry { name, derivative, start, magnitude });
+                self.states.push(StateEntry {
+                    name,
+                    derivative,
+                    is_limited,
+                    is_balance: false,
+                    start,
+                    magnitude,
+                });
             }
+            NodeKind::Junction { start } => {
+                let is_limited = !fluid::of(self.context, &self.fluids, name)?.has_air();
+                let derivative = Located::new(formula("q", &terms)?, span);
+                let (name, magnitude) = (Located::new(pressure, span), ATMOSPHERE);
+                self.states.push(StateEntry {
+                    name,
+                    derivative,
+                    is_limited,
+                    is_balance: true,
+                    start,
+                    magnitude,
+                });
+            }
+            NodeKind::Pressure => {}
+        }
+        match node.kind {
+            NodeKind::Volume { .. } => {}
             NodeKind::Pressure | NodeKind::Junction { .. } => {
                 if let Some(part) = stores(&self.compliances) {
                     let part = part.rsplit_once('.').map_or(part.as_str(), |(part, _)| part);

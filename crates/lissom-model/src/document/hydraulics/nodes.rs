@@ -46,15 +46,22 @@ pub(super) const PRESSURE: HydraulicKind = HydraulicKind {
     summary: "Node with a prescribed pressure: a tank, or an ideal supply.",
     ports: &[],
     keys: || {
-        let words =
-            "absolute pressure, a number or an expression; default: that of the atmosphere, 101325 Pa";
+        let words = "absolute pressure, a number or an expression; default: that of the atmosphere";
         vec![fluid(), optional("pressure", Shape::Formula, "Pa", words)]
     },
     separates_fluids: false,
     components: &[("pressure", "Pa"), ("flow", "m^3/s"), ("power", "W")],
     add: |part, net| {
         if part.reader.has("pressure") {
-            net.expression(part, "pressure", part.reader.formula("pressure")?);
+            let pressure = part.reader.formula("pressure")?;
+            let formula = &pressure.value;
+            let is_constant = formula.arguments().is_empty() && !formula.depends_on_time();
+            if is_constant && formula.with_arguments(&[]).jet(0.0).value <= 0.0 {
+                let message = format!("`pressure` of {} is not above 0", part.reader.what);
+                let help = "pressures are absolute: that of the atmosphere is 101325 Pa";
+                return part.reader.context.fail(pressure.span, message, help);
+            }
+            net.expression(part, "pressure", pressure);
         } else {
             net.signal(part, "pressure", ("p", &[("p", ATMOSPHERE.into())]))?;
         }

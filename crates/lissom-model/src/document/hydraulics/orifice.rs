@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use super::net::{Net, Part, Term};
 use super::{HydraulicKind, port};
-use crate::format::keys::{Key, Shape, optional, unitless};
+use crate::format::keys::{Key, Shape, optional, required, unitless};
 
 /// Flow through an orifice of conductance `k` [m³/(s Pa^½)] for a pressure drop `d` [Pa]: the root of the drop, and linear in it
-/// far below the transition `w` [Pa] (source: hydraulic-orifice).
+/// far below the transition `w` [Pa] [Merritt 1967, with a smooth transition].
 pub(super) const LAW: &str = "k*d/(d^2 + w^2)^0.25";
 
 /// Registry entry.
@@ -16,7 +16,7 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
     summary: "Orifice: turbulent flow with the root of the pressure drop, laminar at small drops; with `opening` a throttle or a 2/2 valve.",
     ports: &[port("a", "node on one side"), port("b", "node on the other side")],
     keys: || {
-        let mut keys = vec![
+        vec![
             optional("area", Shape::Positive, "m²", "of the opening; either it or `rated_flow` is required"),
             unitless("discharge", Shape::Between(0.01, 1.0), "discharge coefficient of the area")
                 .or_number(0.7),
@@ -25,7 +25,7 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
             unitless(
                 "opening",
                 Shape::Formula,
-                "fraction of the area that is open, an expression; 0 if negative, default 1",
+                "fraction of the area that is open, an expression; 0 if negative; default: fully open",
             ),
             optional(
                 "transition",
@@ -33,12 +33,9 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
                 "Pa",
                 "pressure drop between laminar and turbulent flow; default from `critical_reynolds`",
             ),
-        ];
-        keys.push(
             unitless("critical_reynolds", Shape::Positive, "Reynolds number at the transition")
                 .or_number(12.0),
-        );
-        keys
+        ]
     },
     separates_fluids: false,
     components: &[("flow", "m^3/s"), ("power", "W")],
@@ -47,7 +44,6 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
 
 /// Keys of what has a rated flow.
 pub(super) fn rated(drop: &'static str) -> [Key; 3] {
-    use crate::format::keys::required;
     [
         required("rated_flow", Shape::Positive, "m³/s", "flow at `rated_drop`, fully open"),
         required("rated_drop", Shape::Positive, "Pa", drop),
@@ -79,9 +75,10 @@ fn add(part: &Part<'_, '_, '_>, net: &mut Net<'_, '_>) -> Option<()> {
     };
     // Re = v D/ν at the mean velocity of the jet, v = Q/A, and D = √(4 A/π).
     let critical = part.number("critical_reynolds")? * fluid.viscosity / discharge;
-    let transition = match reader.has("transition") {
-        true => part.number("transition")?,
-        false => PI * fluid.density / (8.0 * area) * critical * critical,
+    let transition = if reader.has("transition") {
+        part.number("transition")?
+    } else {
+        PI * fluid.density / (8.0 * area) * critical * critical
     };
     let mut terms = vec![
         ("k", (per_area * area).into()),

@@ -10,13 +10,14 @@ use crate::format::keys::{Shape, optional, required, unitless};
 /// Registry entry.
 pub(super) const KIND: HydraulicKind = HydraulicKind {
     word: "pipe",
-    summary: "Smooth pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.",
+    summary: "Pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.",
     ports: &[port("a", "node at one end"), port("b", "node at the other end")],
     keys: || {
         let start = optional("start", Shape::Positive, "Pa", "absolute pressure in it at the start");
         vec![
             required("length", Shape::Positive, "m", "length"),
             required("diameter", Shape::Positive, "m", "inner diameter"),
+            optional("roughness", Shape::NotNegative, "m", "of the wall").or_number(0.0),
             unitless("segments", Shape::Count(1, 50), "number of segments").or_count(5),
             start.or_number(ATMOSPHERE),
             optional("start_flow", Shape::Number, "m³/s", "flow in it at the start, from `a` to `b`")
@@ -40,20 +41,27 @@ fn add(part: &Part<'_, '_, '_>, net: &mut Net<'_, '_>) -> Option<()> {
         _ => Term::Name(part.component(&format!("pressure{k}"))),
     };
     let flow_of = |k: usize| Term::Name(part.component(&format!("flow{k}")));
-    // Inertance I = ρ l/A; laminar drop of Hagen and Poiseuille 128 ρ ν l q/(π d⁴); above Re = 2000 towards the friction factor of
-    // Blasius 0.3164 Re^(-1/4), fully from 4000, whose ratio to the laminar one is (Re/1187.4)^(3/4).
+    // Inertance I = ρ l/A. The laminar drop of Hagen and Poiseuille, R q = 128 ρ ν l q/(π d⁴), times f Re/64 with the friction factor
+    // of Churchill (1977), which is smooth from laminar to turbulent flow.
     let resistance = 128.0 * fluid.density * fluid.viscosity * own / (PI * diameter.powi(4));
-    let drop = "R*q*(1 + smoothstep(abs(q)*e/2000 - 1)*((max(abs(q)*e, 1)/1187.4)^0.75 - 1))";
+    let reynolds = "hypot(e*q, 1)";
+    let turbulent = format!("((2.457*ln(1/((7/{reynolds})^0.9 + 0.27*r)))^16 + (37530/{reynolds})^16)");
+    let drop = format!("R*q*(1 + ({reynolds}/8)^12/{turbulent}^1.5)^(1/12)");
     for k in 1..=count {
         let terms = [
             ("I", (fluid.density * own / area).into()),
             ("R", resistance.into()),
             ("e", (diameter / (area * fluid.viscosity)).into()),
+            ("r", (part.number("roughness")? / diameter).into()),
             ("q", flow_of(k)),
             ("p1", inner(k - 1)),
             ("p2", inner(k)),
         ];
-        net.state(part, (&format!("flow{k}"), area, flow), (&format!("(p1 - p2 - {drop})/I"), &terms))?;
+        net.state(
+            part,
+            (&format!("flow{k}"), area, flow, false),
+            (&format!("(p1 - p2 - {drop})/I"), &terms),
+        )?;
     }
     for k in 1..count {
         let (compressibility, mut terms) = fluid.compressibility();
@@ -64,7 +72,7 @@ fn add(part: &Part<'_, '_, '_>, net: &mut Net<'_, '_>) -> Option<()> {
             ("q2", flow_of(k + 1)),
         ]);
         let rate = format!("(q1 - q2)/(V*({compressibility}))");
-        net.state(part, (&format!("pressure{k}"), ATMOSPHERE, start), (&rate, &terms))?;
+        net.state(part, (&format!("pressure{k}"), ATMOSPHERE, start, !fluid.has_air()), (&rate, &terms))?;
     }
     // Half a segment of fluid is at each end.
     net.signal(part, "end", ("V", &[("V", (area * own / 2.0).into())]))?;
