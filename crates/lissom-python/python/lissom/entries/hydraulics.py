@@ -61,7 +61,7 @@ class Pressure(HydraulicPart):
 
     Args:
         fluid: name of its fluid; may be omitted if there is one or none, which is then a mineral oil HLP 46; the name of an entry of `[fluids]`, or nothing.
-        pressure: absolute pressure, a number or an expression; default: that of the atmosphere, 101325 Pa [Pa]; an expression of signals, or nothing.
+        pressure: absolute pressure, a number or an expression; default: that of the atmosphere [Pa]; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "pressure"
@@ -129,7 +129,7 @@ class Orifice(HydraulicPart):
         discharge: discharge coefficient of the area; default 0.7; a number from 0.01 to 1, or nothing.
         rated_flow: instead of `area`: flow at `rated_drop` [m³/s]; a number > 0, or nothing.
         rated_drop: pressure drop at `rated_flow` [Pa]; a number > 0, or nothing.
-        opening: fraction of the area that is open, an expression; 0 if negative, default 1; an expression of signals, or nothing.
+        opening: fraction of the area that is open, an expression; 0 if negative; default: fully open; an expression of signals, or nothing.
         transition: pressure drop between laminar and turbulent flow; default from `critical_reynolds` [Pa]; a number > 0, or nothing.
         critical_reynolds: Reynolds number at the transition; default 12; a number > 0, or nothing.
     """
@@ -266,13 +266,14 @@ class Accumulator(HydraulicPart):
 
 @dataclass(kw_only=True, slots=True)
 class Pipe(HydraulicPart):
-    """Smooth pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.
+    """Pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.
 
     Args:
         a: node at one end; the name of an entry of `[hydraulics]`.
         b: node at the other end; the name of an entry of `[hydraulics]`.
         length: length [m]; a number > 0.
         diameter: inner diameter [m]; a number > 0.
+        roughness: of the wall; default 0 [m]; a number ≥ 0, or nothing.
         segments: number of segments; default 5; a whole number from 1 to 50, or nothing.
         start: absolute pressure in it at the start; default 101325 [Pa]; a number > 0, or nothing.
         start_flow: flow in it at the start, from `a` to `b`; default 0 [m³/s]; a number, or nothing.
@@ -284,6 +285,7 @@ class Pipe(HydraulicPart):
     b: str
     length: Number
     diameter: Number
+    roughness: Number | None = None
     segments: Count | None = None
     start: Number | None = None
     start_flow: Number | None = None

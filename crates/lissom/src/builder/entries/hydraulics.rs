@@ -23,7 +23,7 @@ entries! {
 
     /// Node with a prescribed pressure: a tank, or an ideal supply.
     Pressure => HydraulicId, kind: "pressure" {
-        pressure: Expression = "pressure", "Absolute pressure, a number or an expression; default: that of the atmosphere, 101325 Pa \\[Pa\\].";
+        pressure: Expression = "pressure", "Absolute pressure, a number or an expression; default: that of the atmosphere \\[Pa\\].";
     }
 
     /// Node without volume: its pressure follows from the balance of the flows.
@@ -54,7 +54,7 @@ entries! {
         discharge: f64 = "discharge", "Discharge coefficient of the area; default 0.7.";
         rated_flow: f64 = "rated_flow", "Instead of `area`: flow at `rated_drop` \\[m³/s\\].";
         rated_drop: f64 = "rated_drop", "Pressure drop at `rated_flow` \\[Pa\\].";
-        opening: Expression = "opening", "Fraction of the area that is open, an expression; 0 if negative, default 1.";
+        opening: Expression = "opening", "Fraction of the area that is open, an expression; 0 if negative; default: fully open.";
         transition: f64 = "transition", "Pressure drop between laminar and turbulent flow; default from `critical_reynolds` \\[Pa\\].";
         critical_reynolds: f64 = "critical_reynolds", "Reynolds number at the transition; default 12.";
     }
@@ -108,12 +108,13 @@ entries! {
         exponent: f64 = "exponent", "Polytropic exponent of the gas: 1 for slow changes; default 1.4.";
     }
 
-    /// Smooth pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.
+    /// Pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.
     Pipe => HydraulicId, kind: "pipe" {
         * a: HydraulicId = "a", "node at one end";
         * b: HydraulicId = "b", "node at the other end";
         * length: f64 = "length", "length \\[m\\]";
         * diameter: f64 = "diameter", "inner diameter \\[m\\]";
+        roughness: f64 = "roughness", "Of the wall; default 0 \\[m\\].";
         segments: usize = "segments", "Number of segments; default 5.";
         start: f64 = "start", "Absolute pressure in it at the start; default 101325 \\[Pa\\].";
         start_flow: f64 = "start_flow", "Flow in it at the start, from `a` to `b`; default 0 \\[m³/s\\].";
