@@ -46,9 +46,12 @@ pub(super) fn add(
     let mut states = Vec::new();
     let sorted_states = by_name(&document.states, |state| &state.name.value);
     for state in &sorted_states {
-        let (add, of): (fn(&mut Builder, &str, f64, f64) -> CoordinateId, _) =
-            if state.is_balance { (Builder::add_unknown, Of::Rate) } else { (Builder::add_state, Of::Value) };
-        let coordinate = add(builder, &state.name.value, state.start, state.magnitude);
+        let (name, start, magnitude) = (&state.name.value, state.start, state.magnitude);
+        let (coordinate, of) = if state.is_balance {
+            (builder.add_unknown(name, start, magnitude), Of::Rate)
+        } else {
+            (builder.add_state(name, start, magnitude), Of::Value)
+        };
         let measured = builder.add_measurement(Coordinate::new(coordinate, of));
         if state.is_limited {
             let node = state.name.value.trim_end_matches(".pressure");

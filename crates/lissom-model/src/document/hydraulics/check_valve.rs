@@ -25,6 +25,7 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
             ("po", part.number("opening_pressure")?.into()),
         ]);
         net.signal(part, "flow", (&LAW.replace('d', "max(pa - pb - po, 0)"), &terms))?;
-        net.through(part)
+        net.through(part);
+        Some(())
     },
 };

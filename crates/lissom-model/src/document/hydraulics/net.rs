@@ -244,10 +244,9 @@ impl<'c, 'a> Net<'c, 'a> {
     }
 
     /// Lets the signal `flow` of the part flow from its first port to its second.
-    pub(super) fn through(&mut self, part: &Part<'_, '_, '_>) -> Option<()> {
+    pub(super) fn through(&mut self, part: &Part<'_, '_, '_>) {
         self.flow(part, 0, ("flow", 1.0));
         self.flow(part, 1, ("flow", -1.0));
-        Some(())
     }
 
     /// Adds the volume of a signal of the part to the node of a port.

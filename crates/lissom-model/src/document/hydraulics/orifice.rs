@@ -94,5 +94,6 @@ fn add(part: &Part<'_, '_, '_>, net: &mut Net<'_, '_>) -> Option<()> {
     } else {
         net.signal(part, "flow", (&law, &terms))?;
     }
-    net.through(part)
+    net.through(part);
+    Some(())
 }

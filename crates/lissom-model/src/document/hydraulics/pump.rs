@@ -71,5 +71,6 @@ fn add(part: &Part<'_, '_, '_>, net: &mut Net<'_, '_>) -> Option<()> {
     if let Some(joint) = shaft {
         net.load(part, &joint, ("joint_torque", "torque", "torque"))?;
     }
-    net.through(part)
+    net.through(part);
+    Some(())
 }
