@@ -4,8 +4,10 @@
 //! Legend: e forces of the unit load, s its signal, x a state.
 //!
 //! ```text
-//! load:   f = s e,      ∂f/∂q = s ∂e/∂q + e ∂s/∂q            state:   x' - s = 0
+//! load:   f = s e,      ∂f/∂q = s ∂e/∂q + e ∂s/∂q            state:   x' - s = 0            balance:   0 - s(x') = 0
 //! ```
+//!
+//! The rate of a state with a balance is an algebraic unknown, and the state its integral, which nothing depends on.
 
 use std::sync::Arc;
 
@@ -18,9 +20,11 @@ use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
 use lissom_mechanics::evaluation::work::{power, power_gradient, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Stressed, USUAL_UNKNOWNS};
+use lissom_mechanics::kinematics::{
+    CoordinateId, Kinematics, Layout, NodeId, Stressed, Subject, USUAL_UNKNOWNS,
+};
 use lissom_mechanics::signals::measurement::{Component, Gradient};
-use lissom_mechanics::signals::{Argument, DiscreteValueId, Graph, SignalId};
+use lissom_mechanics::signals::{Argument, DiscreteValueId, Graph, MeasurementId, SignalId};
 
 /// Target of a signal.
 pub enum Target {
@@ -28,13 +32,15 @@ pub enum Target {
     Load(Box<dyn Element>),
     /// A first-order state.
     State([CoordinateId; 1]),
+    /// A state whose rate makes the signal zero.
+    Balance([CoordinateId; 1]),
 }
 
 impl Target {
     fn unknowns(&self) -> Unknowns<'_> {
         match self {
             Self::Load(element) => element.unknowns(),
-            Self::State(coordinate) => Unknowns::of_coordinates(coordinate),
+            Self::State(coordinate) | Self::Balance(coordinate) => Unknowns::of_coordinates(coordinate),
         }
     }
 }
@@ -125,6 +131,10 @@ impl Driven {
                 out.damping[0] = 1.0;
                 factors[0] = -1.0;
             }
+            Target::Balance(_) => {
+                out.clear(self.rows.len());
+                factors[0] = -1.0;
+            }
         }
         graph.differentiate(self.signal, at, values, |measurement, derivative| {
             let scaled = factors.map(|factor| derivative * factor);
@@ -133,11 +143,24 @@ impl Driven {
     }
 }
 
+/// A pressure below which a fluid without air is torn apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitedPressure {
+    /// Where it is.
+    pub node: Subject,
+    /// The pressure [Pa].
+    pub pressure: MeasurementId,
+    /// Its limit [Pa].
+    pub limit: f64,
+}
+
 /// The graph of signals and their targets.
 #[derive(Default)]
 pub struct Feedback {
     /// The signals.
     pub graph: Graph,
+    /// Pressures that have a lower limit.
+    pub pressures: Vec<LimitedPressure>,
     driven: Vec<Driven>,
     places: ScatterMap,
 }
@@ -163,12 +186,17 @@ impl Feedback {
             Driven::new(target, signal, &graph, layout).ok_or_else(touches)
         });
         let driven = driven.collect::<Result<_, _>>()?;
-        Ok(Self { graph, driven, places: ScatterMap::new() })
+        Ok(Self { graph, pressures: Vec::new(), driven, places: ScatterMap::new() })
     }
 
     /// Whether signals have no targets.
     pub fn is_empty(&self) -> bool {
         self.driven.is_empty()
+    }
+
+    /// Whether there are states with balances.
+    pub fn has_balances(&self) -> bool {
+        self.driven.iter().any(|driven| matches!(driven.target, Target::Balance(_)))
     }
 
     /// Whether any signal with a target depends on the motion or a state, continuously or at samples, or there is a
@@ -247,6 +275,7 @@ impl Feedback {
                     Target::State([coordinate]) => {
                         local[0] = at.coordinates[*coordinate].rate - values[driven.signal.index()];
                     }
+                    Target::Balance(_) => local[0] = -values[driven.signal.index()],
                 }
                 scatter(&driven.rows[..driven.own], &local, out);
             }
@@ -272,7 +301,7 @@ impl Feedback {
                         element.forces(at, &mut local[..driven.own]);
                         local = local.map(|force| factor * force);
                     }
-                    Target::State(_) => local[0] = -factor,
+                    Target::State(_) | Target::Balance(_) => local[0] = -factor,
                 }
                 scatter(&driven.rows[..driven.own], &local, out);
             }

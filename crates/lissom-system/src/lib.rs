@@ -41,7 +41,7 @@ use lissom_solver::Structure;
 
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
-pub use feedback::{DrivenBatch, Feedback, ScaledPower};
+pub use feedback::{DrivenBatch, Feedback, LimitedPressure, ScaledPower};
 use lissom_contact::rigid::RigidContact;
 use lissom_contact::set::ContactSet;
 use lissom_flexible::beam::section_error::ExaminedBeams;
@@ -247,6 +247,16 @@ impl System {
     /// Whether forces depend on the motion through signals, or there are states.
     pub fn has_signal_feedback(&self) -> bool {
         self.feedback.depends_on_motion() || self.layout.state_count() > 0
+    }
+
+    /// Pressures that have a lower limit.
+    pub fn limited_pressures(&self) -> &[LimitedPressure] {
+        &self.feedback.pressures
+    }
+
+    /// Whether rates of states are algebraic unknowns.
+    pub fn has_balances(&self) -> bool {
+        self.feedback.has_balances()
     }
 
     /// Whether loads depend on the motion beyond the rotation of their nodes, such as pressure.

@@ -130,6 +130,10 @@ tables! {
     StateId: States = "states", "state";
     /// An event.
     EventId: Events = "events", "event";
+    /// A fluid.
+    FluidId: Fluids = "fluids", "fluid";
+    /// A node or a component of a hydraulic network.
+    HydraulicId: Hydraulics = "hydraulics", "hydraulic part";
     /// The initial state of all parts.
     InitialId: Initial = "initial", "start";
     /// The initial motion of some parts.

@@ -9,6 +9,7 @@
 
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, SolverKind};
+use nalgebra::{DMatrix, DVector};
 
 use super::open_trees;
 use super::redundancy::Redundancy;
@@ -410,11 +411,17 @@ impl ConsistentInitialConditions {
         Ok(())
     }
 
-    /// Sets the rates of first-order states from their equations x' - f = 0.
-    pub(crate) fn set_state_rates(&self, system: &System, at: &mut Kinematics) {
+    /// Sets the rates of first-order states from their equations x' - f = 0, and algebraic unknowns from their balances.
+    ///
+    /// # Errors
+    /// If a balance has no unique solution near the present values.
+    pub(crate) fn set_state_rates(&self, system: &System, at: &mut Kinematics) -> Result<(), InitialError> {
         let layout = system.layout();
+        if system.has_balances() {
+            return self.solve_state_rates(system, at);
+        }
         if layout.state_count() == 0 {
-            return;
+            return Ok(());
         }
         for (_, coordinate, _) in layout.states() {
             at.coordinates[coordinate].rate = 0.0;
@@ -425,6 +432,68 @@ impl ConsistentInitialConditions {
         for (row, coordinate, _) in layout.states() {
             at.coordinates[coordinate].rate = -residual[row];
         }
+        Ok(())
+    }
+
+    /// Solves the equations of all states for their rates by Newton's method, with shorter steps where they do not help.
+    fn solve_state_rates(&self, system: &System, at: &mut Kinematics) -> Result<(), InitialError> {
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let states: Vec<_> = layout.states().collect();
+        let zero = vec![0.0; layout.multiplier_count];
+        let mut residual = vec![0.0; layout.size()];
+        let mut linearization = system.empty_linearization();
+        let mut equations = |at: &Kinematics| {
+            residual.fill(0.0);
+            system.residual(&self.point(at, &zero), &mut residual);
+            DVector::from_iterator(states.len(), states.iter().map(|&(row, ..)| residual[row]))
+        };
+        let mut tangent = |at: &Kinematics| {
+            system.linearize(&self.point(at, &zero), Chart::Body, &mut linearization);
+            DMatrix::from_fn(states.len(), states.len(), |i, j| {
+                let entry = pattern.position(states[i].0, states[j].0);
+                entry.map_or(0.0, |entry| linearization.damping[entry])
+            })
+        };
+        let relative = |change: &DVector<f64>, at: &Kinematics| {
+            let own = states.iter().zip(change.iter());
+            own.map(|(&(_, own, magnitude), change)| {
+                change.abs() / magnitude.max(at.coordinates[own].rate.abs())
+            })
+            .fold(0.0_f64, f64::max)
+        };
+        let mut found = equations(&*at);
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let tangent = tangent(at).lu();
+            let Some(change) = tangent.solve(&found).filter(|own| own.iter().all(|own| own.is_finite()))
+            else {
+                break;
+            };
+            let size = relative(&change, at);
+            if size <= round_off::SOLUTION || (size <= round_off::ITERATION && size >= last) {
+                return Ok(());
+            }
+            last = size;
+            let mut share = 1.0;
+            loop {
+                let mut moved = at.clone();
+                for (&(_, own, _), change) in states.iter().zip(change.iter()) {
+                    moved.coordinates[own].rate -= share * change;
+                }
+                let there = equations(&moved);
+                let further = tangent.solve(&there).map_or(f64::INFINITY, |own| relative(&own, at));
+                if further < size || share < round_off::ITERATION {
+                    (*at, found) = (moved, there);
+                    break;
+                }
+                share *= 0.5;
+            }
+        }
+        // The first unknown on which no equation depends.
+        let tangent = tangent(at);
+        let is_free = |column: usize| tangent.column(column).iter().all(|entry| *entry == 0.0);
+        let free = (0..states.len()).find(|&column| is_free(column)).unwrap_or(0);
+        Err(InitialError::Unbalanced { unknown: layout.subject_of(states[free].0) })
     }
 
     /// Computes second derivatives of first-order states by a central difference of their rates over `delay` [s] before and after the
@@ -439,7 +508,8 @@ impl ConsistentInitialConditions {
         }
         let [after, before] = [delay, -delay].map(|delay| {
             let mut moved = moved(state, delay).kinematics;
-            self.set_state_rates(system, &mut moved);
+            // Beside a state that is balanced others are, or their rates are not differentiated.
+            let _ = self.set_state_rates(system, &mut moved);
             moved.coordinates
         });
         for coordinate in states {

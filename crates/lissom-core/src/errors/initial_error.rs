@@ -33,6 +33,16 @@ diagnostics! {
             remedy: "remove states, friction and rolling joints, or start a dynamic analysis without an equilibrium",
             meaning: "A state, friction or a rolling joint is governed by rates, which statics and a start from equilibrium do not have.",
         }
+        /// Algebraic unknowns whose equations do not determine them.
+        Unbalanced {
+            /// The unknown.
+            unknown: Subject,
+        } => "unbalanced" {
+            subject: unknown,
+            cause: ("the balance of the {unknown} has no unique solution, or none that is found from its first guess"),
+            remedy: "give it a better first guess; let flow into a junction in every position of the valves, or give it a volume",
+            meaning: "An algebraic unknown, such as the pressure of a junction, follows from an equation that determines it at all times.",
+        }
         /// A delayed signal where there is no time.
         DelayInStatics {
             /// The signal.

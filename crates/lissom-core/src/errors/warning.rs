@@ -33,6 +33,23 @@ diagnostics! {
             advice: "The step does not resolve the motion, or the scheme adds energy to a motion that it does not resolve: use a smaller step, \
                 `relative_tolerance`, or `scheme = \"radau-iia\"`.",
         }
+        /// A fluid without air is pulled.
+        Cavitation {
+            /// Time [s].
+            time: f64,
+            /// Where.
+            node: Subject,
+            /// Absolute pressure there [Pa].
+            pressure: f64,
+        } => "cavitation" {
+            time: *time,
+            subject: node,
+            cause: ("at t = {time} s the absolute pressure of the {node} is {pressure:.3e} Pa: a fluid without air carries tension, but a \
+                    real one is torn apart"),
+            remedy: "give the fluid `air`, whose bubbles grow instead, and let fluid flow in from the tank by a check valve",
+            meaning: "The absolute pressure in a fluid with `air = 0` fell below zero. Forces and times after that are those of a fluid that \
+                carries tension.",
+        }
         /// The restitution of an impact was reduced.
         RestitutionReduced {
             /// Time [s].

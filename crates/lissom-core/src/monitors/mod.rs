@@ -4,6 +4,7 @@
 //! without a monitor can be restored with it.
 
 mod beam_strains;
+mod cavitation;
 pub(crate) mod constraint_rates;
 pub(crate) mod contact;
 mod drives;
@@ -64,6 +65,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
     Kind { name: "penetration", begin: penetration::begin },
+    Kind { name: "cavitation", begin: cavitation::begin },
     Kind { name: "tyre-loads", begin: tyre_loads::begin },
     Kind { name: "hollows", begin: hollows::begin },
     Kind { name: "beam-strains", begin: beam_strains::begin },

@@ -71,7 +71,7 @@ pub(crate) fn settle(
     if system.has_readings() {
         // The first samples read accelerations and multipliers computed without these samples.
         system.signals().set_values_before_first_sample(&mut state.kinematics);
-        initial.set_state_rates(system, &mut state.kinematics);
+        initial.set_state_rates(system, &mut state.kinematics)?;
         initial.accelerations(system, state)?;
         let readings: Vec<_> = system.take_readings(state).collect();
         for (held, value) in readings {
@@ -86,7 +86,7 @@ pub(crate) fn settle(
     }
     graph.begin(&mut state.kinematics).map_err(InitialError::Signal)?;
     system.check_functions(&state.kinematics).map_err(InitialError::Signal)?;
-    initial.set_state_rates(system, &mut state.kinematics);
+    initial.set_state_rates(system, &mut state.kinematics)?;
     initial.accelerations(system, state)?;
     initial.accelerate_states(system, state, settings.step_size);
     let delay = settings.scheme.memory_delay * settings.step_size;
@@ -177,6 +177,9 @@ impl Simulation {
             self.state.kinematics = at;
             return Ok(());
         };
+        if self.system.has_balances() {
+            return self.balanced_jump(self.state.kinematics.time, |state| state.kinematics.held = at.held);
+        }
         let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
         self.state.kinematics.held = at.held;
         self.add_jump(jump);
@@ -193,6 +196,9 @@ impl Simulation {
             return self.switch_constraints(&[], None, [earlier, later]);
         }
         let Some(initial) = &mut self.held_values else { return Ok(()) };
+        if self.system.has_balances() {
+            return self.balanced_jump(earlier, |state| state.kinematics.time = later);
+        }
         let time = self.state.kinematics.time;
         let mut at = |instant: f64| {
             self.state.kinematics.time = instant;
@@ -202,6 +208,26 @@ impl Simulation {
         self.state.kinematics.time = time;
         let (before, mut jump) = found?;
         jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        self.add_jump(jump);
+        Ok(())
+    }
+
+    /// Adds the jump from the instant `earlier` to a changed state, in which algebraic unknowns satisfy their balances.
+    fn balanced_jump(&mut self, earlier: f64, change: impl FnOnce(&mut State)) -> Result<(), InitialError> {
+        let Self { system, state, held_values: Some(initial), .. } = self else { return Ok(()) };
+        let time = std::mem::replace(&mut state.kinematics.time, earlier);
+        let mut changed = state.clone();
+        changed.kinematics.time = time;
+        change(&mut changed);
+        let before = initial.acceleration_at(system, state);
+        state.kinematics.time = time;
+        let before = before?;
+        initial.set_state_rates(system, &mut changed.kinematics)?;
+        let mut jump = initial.acceleration_at(system, &changed)?;
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        system.layout().states().for_each(|(row, ..)| jump[row] = 0.0);
+        changed.kinematics.time = time;
+        *state = changed;
         self.add_jump(jump);
         Ok(())
     }

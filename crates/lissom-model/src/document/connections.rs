@@ -216,6 +216,7 @@ fn at_rest(context: &Context<'_>, document: &Document) {
             format!("{what} has no sampling times, so the unit `{}` has no outputs", unit.name.value);
         context.fail::<()>(unit.name.span, message, "remove it, or use an analysis of kind `dynamics`");
     }
+    let hydraulic = context.names("hydraulics").first().copied();
     let what = match document.analysis.kind {
         AnalysisKind::Statics { .. } => "statics",
         AnalysisKind::Path { .. } => "an equilibrium path",
@@ -230,6 +231,10 @@ fn at_rest(context: &Context<'_>, document: &Document) {
     }
     if !statics && !document.starts_in_equilibrium() {
         return;
+    }
+    if let Some((part, span)) = hydraulic {
+        let message = format!("{what} has no flow rates, so the hydraulic part `{part}` has no pressures");
+        context.fail::<()>(span, message, "remove [hydraulics], or use an analysis of kind `dynamics`");
     }
     for state in &document.states {
         let message = format!("{what} has no rates, so the state `{}` is undefined", state.name.value);

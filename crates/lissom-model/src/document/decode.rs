@@ -12,7 +12,8 @@ use super::entries::PARTS;
 use super::tables::variants;
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, elastic_solids, events,
-    ground, initial, local_loads, materials, outputs, ports, shells, signals, superelements, units,
+    ground, hydraulics, initial, local_loads, materials, outputs, ports, shells, signals, superelements,
+    units,
 };
 use crate::expression;
 use crate::files::library::Library;
@@ -113,7 +114,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     }
     let outputs = outputs::outputs(context, registry);
     let analysis = analysis::analysis(context, registry);
-    let document = Document {
+    let mut document = Document {
         title,
         gravity: gravity?,
         parameters,
@@ -137,6 +138,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         states,
         events,
         units,
+        hydraulics: Vec::new(),
         initial,
         initial_of_parts,
         assembly,
@@ -147,6 +149,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     };
     connections::check(context, &document, &places);
     events::check(context, &document.analysis);
+    hydraulics::add(context, registry, &mut document);
     Some(document)
 }
 

@@ -15,6 +15,7 @@ mod elastic_solids;
 mod entries;
 mod events;
 mod ground;
+mod hydraulics;
 mod initial;
 mod load_input;
 mod local_loads;
@@ -69,6 +70,7 @@ pub use distributed::DistributedForce;
 pub use elastic_solids::{ElasticSolid, FacePressure};
 pub use events::EventEntry;
 pub use ground::Ground;
+pub use hydraulics::HydraulicEntry;
 pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
 pub(crate) use shells::area_arguments;
 pub use shells::{AreaLoad, Layer, Shell};
@@ -145,6 +147,8 @@ pub struct Document {
     pub events: Vec<EventEntry>,
     /// Co-simulation units of other programs.
     pub units: Vec<UnitEntry>,
+    /// Hydraulic parts; their equations are among the states, signals, loads and springs.
+    pub hydraulics: Vec<HydraulicEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
     /// Rigid motions at the start of parts that move otherwise, by the names of bodies, point masses and beams.

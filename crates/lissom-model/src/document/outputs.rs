@@ -1,6 +1,7 @@
 //! Reads the outputs of a model file.
 
 use super::entries::each_of_kind;
+use super::hydraulics::component;
 use super::{Feature, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, Subject};
 use crate::format::suggest;
 use crate::parts::context::Context;
@@ -37,6 +38,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         } else {
             ReactionAxes::Ground
         };
+        let context = reader.context;
         let frame = |key: &str, feature| match kind.has(feature).then(|| reader.node(key)).flatten() {
             None => Some(None),
             Some(node) => frame(reader, node, key).map(Some),
@@ -46,6 +48,11 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         let station = if kind.has(Feature::Station) { reader.number("station") } else { None };
         let text = |key: &str| reader.text(key).map(|text| text.value.to_owned());
         let unit = if kind.has(Feature::Unit) { text("unit") } else { None };
+        let of_part = |source: &OutputSource| match source {
+            OutputSource::Signal(name) => component(context, &name.value).map(|(_, unit)| unit.to_owned()),
+            _ => None,
+        };
+        let unit = unit.or_else(|| of_part(&source));
         let plot = text("plot");
         let fatigue = if kind.has(Feature::Fatigue) { fatigue(reader) } else { None };
         let name = Located::new(name.to_owned(), reader.name);
@@ -103,7 +110,9 @@ fn name_of_one(reader: &Reader<'_, '_>, tables: &[&str], what: &str) -> Option<L
         let owner = full.rsplit_once('.').map(|(owner, _)| owner);
         tables[0] == "signals" && owner.is_some_and(|owner| reader.context.has("units", owner))
     };
-    if let Some(full) = reader.context.resolve(name.value, scope, &|full| exists(full) || is_of_unit(full)) {
+    let is_of_part = |full: &str| tables[0] == "signals" && component(reader.context, full).is_some();
+    let is_known = |full: &str| exists(full) || is_of_unit(full) || is_of_part(full);
+    if let Some(full) = reader.context.resolve(name.value, scope, &is_known) {
         return Some(Located::new(full, name.span));
     }
     let message =

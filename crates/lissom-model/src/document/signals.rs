@@ -57,8 +57,12 @@ pub struct DiscreteFilter {
 pub struct StateEntry {
     /// Name.
     pub name: Located<String>,
-    /// Derivative of the state by time.
+    /// Derivative of the state by time, or what its value makes zero.
     pub derivative: Located<Formula>,
+    /// Whether it is the pressure of a fluid that cannot be pulled.
+    pub is_limited: bool,
+    /// Whether the state is algebraic: its value makes the expression zero.
+    pub is_balance: bool,
     /// Value at the start.
     pub start: f64,
     /// Usual magnitude, by which errors are measured.
@@ -225,6 +229,8 @@ pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {
         Some(StateEntry {
             name: Located::new(name.to_owned(), reader.name),
             derivative: reader.formula("derivative")?,
+            is_limited: false,
+            is_balance: reader.flag("algebraic")?.value,
             start: reader.number("start")?.value,
             magnitude: reader.number("magnitude")?.value,
         })

@@ -59,6 +59,8 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "states" => (None, vec![single(state())]),
         "events" => (None, vec![single(super::events::keys())]),
         "units" => (None, vec![single(super::units::keys())]),
+        "fluids" => (None, vec![single(super::hydraulics::fluid_keys())]),
+        "hydraulics" => (Some("kind"), super::hydraulics::variants()),
         "initial" => (None, vec![single(initial())]),
         "assembly" => (None, vec![single(super::assembly::keys())]),
         "outputs" => (Some("kind"), outputs()),
@@ -256,6 +258,12 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
 fn state() -> Vec<Key> {
     vec![
         required("derivative", Shape::Formula, "1/s", "time derivative"),
+        unitless(
+            "algebraic",
+            Shape::Flag,
+            "whether the value makes `derivative` zero at all times, as that of an infinitely fast state; `start` is a first guess",
+        )
+        .or_flag(false),
         unitless("start", Shape::Number, "value at the start").or_number(0.0),
         unitless(
             "magnitude",
@@ -297,7 +305,12 @@ fn output_subject(subject: Subject) -> Option<Key> {
         }
         Subject::Beam => required("of", Shape::Name("beams"), "", "the beam"),
         Subject::Superelement => required("of", Shape::Name("superelements"), "", "the superelement"),
-        Subject::Signal => required("of", Shape::Text, "", "the name of a signal, an input or a state"),
+        Subject::Signal => required(
+            "of",
+            Shape::Text,
+            "",
+            "the name of a signal, an input or a state, or of a component of a hydraulic part",
+        ),
         Subject::Expression => {
             let words = "expression such as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs";
             required("value", Shape::Formula, "", words)

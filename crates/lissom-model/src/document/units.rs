@@ -70,7 +70,7 @@ pub(super) fn keys() -> Vec<Key> {
 
 pub(super) fn units(context: &Context<'_>) -> Vec<UnitEntry> {
     each(context, "units", |reader, name| {
-        check_name(context, name, reader.name)?;
+        check_name(context, "unit", name, reader.name)?;
         let file = reader.text("file")?;
         let path = joined(context.sources.file(file.span), file.value);
         let path = match context.library.unit(&path) {
@@ -139,19 +139,23 @@ fn is_word(name: &str) -> bool {
         && !expression::is_reserved(name)
 }
 
-/// Expressions name a unit's outputs as they name components of joints and outputs.
-fn check_name(context: &Context<'_>, name: &str, span: Span) -> Option<()> {
+/// Expressions name outputs of a unit, or components of another part `of` the model, as they name components of joints.
+pub(super) fn check_name(context: &Context<'_>, of: &str, name: &str, span: Span) -> Option<()> {
     let local = name.rsplit('.').next().unwrap_or(name);
     if !is_word(local) {
-        let message = format!("`{name}` cannot be the name of a unit, because expressions cannot contain it");
+        let message = format!("`{name}` cannot be the name of a {of}, because expressions cannot contain it");
         let help =
             "use letters, digits and `_`, a letter first, and no word of expressions such as `pi` or `t`";
         return context.fail(span, message, help);
     }
-    for (table, what) in [("joints", "joint"), ("outputs", "output"), ("signals", "signal")] {
-        if context.has(table, name) {
+    // Hydraulic parts add springs and loads of their own names.
+    let forces = [("springs", "spring"), ("loads", "load")].into_iter().filter(|_| of != "unit");
+    let owners =
+        [("joints", "joint"), ("outputs", "output"), ("signals", "signal"), ("hydraulics", "hydraulic part")];
+    for (table, what) in owners.into_iter().chain(forces) {
+        if what != of && context.has(table, name) {
             let message =
-                format!("the unit `{name}` has the name of a {what}, so `{name}.y` would be ambiguous");
+                format!("the {of} `{name}` has the name of a {what}, so `{name}.y` would be ambiguous");
             return context.fail(span, message, "rename one of them");
         }
     }

@@ -31,7 +31,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 28] = [
+pub(crate) static TOP: [Top; 30] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top(
@@ -102,6 +102,13 @@ pub(crate) static TOP: [Top; 28] = [
         false,
         "Co-simulation units (FMI) of other programs, advanced from sample to sample.",
     ),
+    top("fluids", Holds::Entries, false, "Fluids of hydraulic parts."),
+    top(
+        "hydraulics",
+        Holds::Entries,
+        false,
+        "Hydraulic parts: nodes with a pressure, and components between them such as cylinders, valves and pumps.",
+    ),
     top(
         "initial",
         Holds::Table,
@@ -169,6 +176,8 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "states" => "state",
         "events" => "event",
         "units" => "unit",
+        "fluids" => "fluid",
+        "hydraulics" => "hydraulic part",
         "parameters" => "parameter",
         "parts" => "part",
         _ => "entry",

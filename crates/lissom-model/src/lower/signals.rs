@@ -46,8 +46,17 @@ pub(super) fn add(
     let mut states = Vec::new();
     let sorted_states = by_name(&document.states, |state| &state.name.value);
     for state in &sorted_states {
-        let coordinate = builder.add_state(&state.name.value, state.start, state.magnitude);
-        let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
+        let (name, start, magnitude) = (&state.name.value, state.start, state.magnitude);
+        let (coordinate, of) = if state.is_balance {
+            (builder.add_unknown(name, start, magnitude), Of::Rate)
+        } else {
+            (builder.add_state(name, start, magnitude), Of::Value)
+        };
+        let measured = builder.add_measurement(Coordinate::new(coordinate, of));
+        if state.is_limited {
+            let node = state.name.value.trim_end_matches(".pressure");
+            builder.limit_pressure(Subject::new("node", node), measured, 0.0);
+        }
         names.signals.insert(state.name.value.clone(), Argument::Measured(measured));
         states.push(coordinate);
     }
@@ -97,6 +106,7 @@ pub(super) fn add(
     for (state, coordinate) in sorted_states.into_iter().zip(states) {
         let subject = Subject::new("state", &state.name.value).component("`derivative`");
         match add_formula(document, builder, names, &subject, &state.derivative) {
+            Ok(signal) if state.is_balance => builder.balance(coordinate, signal),
             Ok(signal) => builder.drive_state(coordinate, signal),
             Err(problem) => problems.push(problem),
         }
@@ -387,6 +397,11 @@ fn resolve(
         let help =
             help.unwrap_or_else(|| format!("add it to `outputs` of the unit: {component} = \"VARIABLE\""));
         return Err(problem(format!("the unit `{owner}` has no output `{component}`")).help(help));
+    }
+    if let Some(part) = document.hydraulics.iter().find(|part| part.name.value == owner) {
+        let help = suggest::help(component, part.components.iter().map(|(word, _)| *word));
+        let message = format!("the hydraulic part `{owner}` has no component `{component}`");
+        return Err(problem(message).maybe_help(help));
     }
     if let Some(of) = outputs_of_signals(document, owner) {
         let output = &of.name.value;

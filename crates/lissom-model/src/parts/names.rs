@@ -10,7 +10,7 @@ use crate::text::report::{Problem, Span};
 use crate::text::{Node, Value};
 
 /// Tables whose entries expressions may name with a component, such as `tip.u1`.
-const OWNERS: [&str; 3] = ["outputs", "joints", "units"];
+const OWNERS: [&str; 4] = ["outputs", "joints", "units", "hydraulics"];
 /// Tables whose entries expressions may name.
 const NUMBERS: [&str; 3] = ["signals", "inputs", "states"];
 /// The component of a sampled signal that is its previous sample.

@@ -12,7 +12,7 @@ use crate::format::top_level::{Holds, Top, Variant, tops};
 use crate::registry::Registry;
 
 /// The files by name without extension, with the tables of their entries.
-const FILES: [(&str, &str, &[&str]); 10] = [
+const FILES: [(&str, &str, &[&str]); 11] = [
     ("sections", "Materials and cross sections.", &["materials", "sections"]),
     (
         "parts",
@@ -24,6 +24,7 @@ const FILES: [(&str, &str, &[&str]); 10] = [
     ("loads", "Applied forces and moments, and those of actuators.", &["loads", "local_loads"]),
     ("contacts", "Parts that may touch, and the solids that are fixed in space.", &["contacts", "ground"]),
     ("feedback", "First-order states, events, and units of other programs.", &["states", "events", "units"]),
+    ("hydraulics", "Fluids, and nodes and components of hydraulic networks.", &["fluids", "hydraulics"]),
     ("motions", "How the parts are and move at the start.", &["initial"]),
     ("outputs", "What is recorded, one class per kind.", &["outputs"]),
     ("analyses", "Kind of analysis and its settings.", &["analysis"]),

@@ -15,7 +15,7 @@ use crate::registry::Registry;
 type TableAndId = (&'static str, &'static str);
 
 /// The files by name without extension, with the tables of their entries and the types of their ids.
-const FILES: [(&str, &str, &[TableAndId]); 10] = [
+const FILES: [(&str, &str, &[TableAndId]); 11] = [
     ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
     (
         "parts",
@@ -46,6 +46,11 @@ const FILES: [(&str, &str, &[TableAndId]); 10] = [
         &[("contacts", "ContactId"), ("ground", "GroundId")],
     ),
     ("feedback", "First-order states and events.", &[("states", "StateId"), ("events", "EventId")]),
+    (
+        "hydraulics",
+        "Fluids, and nodes and components of hydraulic networks.",
+        &[("fluids", "FluidId"), ("hydraulics", "HydraulicId")],
+    ),
     ("motions", "How the parts are and move at the start.", &[("initial", "InitialId")]),
     ("outputs", "What is recorded, one type per kind.", &[("outputs", "OutputId")]),
     ("analyses", "Kind of analysis and its settings.", &[("analysis", "AnalysisId")]),
@@ -95,6 +100,8 @@ fn imports(text: &str) -> String {
             &[
                 "BeamId",
                 "ContactId",
+                "FluidId",
+                "HydraulicId",
                 "InputId",
                 "JointId",
                 "LocalLoadId",
@@ -272,6 +279,7 @@ fn single(table: &str) -> &'static str {
         "superelements" => "superelement",
         "states" => "state",
         "events" => "event",
+        "fluids" => "fluid",
         "contacts" => "contact",
         "local_loads" => "local_load",
         "ground" => "ground",
@@ -290,6 +298,7 @@ fn summary_of(table: &str) -> &'static str {
         "point_masses" => "A mass without extension.",
         "superelements" => "A linear elastic part that is given by reduced matrices.",
         "states" => "A first-order state: a number whose time derivative is an expression.",
+        "fluids" => "A fluid of hydraulic parts.",
         "events" => "What happens when an expression passes through zero.",
         "local_loads" => "A force and a moment that depend on the motion of their own points.",
         "contacts" => "Two parts that may touch, by their shapes.",

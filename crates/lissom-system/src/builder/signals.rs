@@ -7,7 +7,7 @@ use lissom_motion::Motion;
 use super::Builder;
 use crate::ElementId;
 use crate::element_quantity::{ElementQuantity, Of};
-use crate::feedback::Target;
+use crate::feedback::{LimitedPressure, Target};
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::elements::initial_model::Coordinate;
 use lissom_mechanics::kinematics::{
@@ -48,6 +48,24 @@ impl Builder {
         let state = contribution.add_state(name.to_owned(), value, magnitude);
         self.add(contribution);
         state
+    }
+
+    /// Adds an algebraic unknown with a first guess of its value and its usual magnitude: the rate of a state, see
+    /// [`Target::Balance`]. Its equation is given with [`balance`](Self::balance).
+    pub fn add_unknown(&mut self, name: &str, guess: f64, magnitude: f64) -> CoordinateId {
+        let state = self.add_state(name, 0.0, magnitude);
+        self.model.coordinates[state.index()].rate = guess;
+        state
+    }
+
+    /// Adds a pressure whose limit monitors check.
+    pub fn limit_pressure(&mut self, node: Subject, pressure: MeasurementId, limit: f64) {
+        self.pressures.push(LimitedPressure { node, pressure, limit });
+    }
+
+    /// Makes a signal zero by the value of an unknown, on which it depends.
+    pub fn balance(&mut self, unknown: CoordinateId, signal: SignalId) {
+        self.targets.push((Target::Balance([unknown]), signal));
     }
 
     /// Adds the first component of a measurement.

@@ -53,12 +53,14 @@ use crate::ids::{Id, IdNames, Table};
 use crate::model_text::Model;
 
 pub use crate::ids::{
-    AnalysisId, BeamId, BodyId, ContactId, EventId, ForeignId, GroundId, InitialId, InputId, JointId, LoadId,
-    LocalLoadId, MaterialId, MotionId, OutputId, Part, PointMassId, Quantity, SectionId, SignalId, SpringId,
-    StateId, SuperelementId,
+    AnalysisId, BeamId, BodyId, ContactId, EventId, FluidId, ForeignId, GroundId, HydraulicId, InitialId,
+    InputId, JointId, LoadId, LocalLoadId, MaterialId, MotionId, OutputId, Part, PointMassId, Quantity,
+    SectionId, SignalId, SpringId, StateId, SuperelementId,
 };
 pub use entries::feedback::{Event, State};
-pub use entries::{analyses, contacts, joints, loads, motions, outputs, parts, sections, springs, words};
+pub use entries::{
+    analyses, contacts, hydraulics, joints, loads, motions, outputs, parts, sections, springs, words,
+};
 pub use entry::Entry;
 pub use expression::{Expression, Function, TabulatedFunction};
 pub use feedback::{Input, Signal};

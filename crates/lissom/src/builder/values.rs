@@ -3,8 +3,8 @@
 use super::entries::sections::SliceMass;
 use super::written::{Fields, NameOf, Written};
 use crate::ids::{
-    AnyId, BeamId, BodyId, ContactId, InputId, JointId, LocalLoadId, MaterialId, Part, PointMassId, Quantity,
-    SectionId, SpringId, SuperelementId,
+    AnyId, BeamId, BodyId, ContactId, FluidId, HydraulicId, InputId, JointId, LocalLoadId, MaterialId, Part,
+    PointMassId, Quantity, SectionId, SpringId, SuperelementId,
 };
 
 /// A node: the ground, a body, a point mass, or a position along a beam; for contacts also a whole beam.
@@ -139,7 +139,7 @@ macro_rules! written_names {
     };
 }
 
-written_names! { MaterialId SectionId JointId SpringId ContactId LocalLoadId InputId BeamId SuperelementId Part Quantity }
+written_names! { MaterialId SectionId FluidId HydraulicId JointId SpringId ContactId LocalLoadId InputId BeamId SuperelementId Part Quantity }
 
 /// The mass of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,6 +2,7 @@
 //! the gallery.
 
 mod gallery;
+mod hydraulics;
 mod import;
 mod import_chains;
 mod import_faults;

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import sections, parts, joints, springs, loads, contacts, feedback, motions, outputs, analyses
+from . import sections, parts, joints, springs, loads, contacts, feedback, hydraulics, motions, outputs, analyses
 from ._entry import Entry, ModelTree
 from .sections import Material, Section
 from .parts import Beam, Shell, Solid, Body, PointMass, Superelement, Part
@@ -14,6 +14,7 @@ from .springs import Spring
 from .loads import Load, LocalLoad
 from .contacts import Contact, Ground
 from .feedback import State, Event, Unit
+from .hydraulics import Fluid, HydraulicPart
 from .motions import Initial
 from .outputs import Output
 from .analyses import Analysis
@@ -97,6 +98,20 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "states": feedback.State,
     "events": feedback.Event,
     "units": feedback.Unit,
+    "fluids": hydraulics.Fluid,
+    "hydraulics": {
+        "volume": hydraulics.Volume,
+        "pressure": hydraulics.Pressure,
+        "junction": hydraulics.Junction,
+        "cylinder": hydraulics.Cylinder,
+        "orifice": hydraulics.Orifice,
+        "valve": hydraulics.Valve,
+        "check_valve": hydraulics.CheckValve,
+        "relief_valve": hydraulics.ReliefValve,
+        "pump": hydraulics.Pump,
+        "accumulator": hydraulics.Accumulator,
+        "pipe": hydraulics.Pipe,
+    },
     "initial": motions.Initial,
     "outputs": {
         "position": outputs.Position,
@@ -171,6 +186,8 @@ ORDER = (
     "states",
     "events",
     "units",
+    "fluids",
+    "hydraulics",
     "initial",
     "assembly",
     "outputs",
@@ -422,6 +439,26 @@ class ModelTables(ModelTree):
     @units.setter
     def units(self, of: dict[str, Unit]) -> None:
         self._set("units", of)
+
+    @property
+    def fluids(self) -> dict[str, Fluid]:
+        """Fluids of hydraulic parts."""
+        of: dict[str, Fluid] = self._table("fluids")
+        return of
+
+    @fluids.setter
+    def fluids(self, of: dict[str, Fluid]) -> None:
+        self._set("fluids", of)
+
+    @property
+    def hydraulics(self) -> dict[str, HydraulicPart]:
+        """Hydraulic parts: nodes with a pressure, and components between them such as cylinders, valves and pumps."""
+        of: dict[str, HydraulicPart] = self._table("hydraulics")
+        return of
+
+    @hydraulics.setter
+    def hydraulics(self, of: dict[str, HydraulicPart]) -> None:
+        self._set("hydraulics", of)
 
     @property
     def initial(self) -> Initial | None:

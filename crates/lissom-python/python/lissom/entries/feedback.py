@@ -15,6 +15,7 @@ class State(Entry):
 
     Args:
         derivative: time derivative [1/s]; an expression of signals.
+        algebraic: whether the value makes `derivative` zero at all times, as that of an infinitely fast state; `start` is a first guess; default `false`; `true` or `false`, or nothing.
         start: value at the start; default 0; a number, or nothing.
         magnitude: typical magnitude, relative to which errors are measured unless its value is larger; default 1; a number > 0, or nothing.
     """
@@ -22,6 +23,7 @@ class State(Entry):
     _table: ClassVar[str] = "states"
 
     derivative: Number
+    algebraic: bool | None = None
     start: Number | None = None
     magnitude: Number | None = None
 

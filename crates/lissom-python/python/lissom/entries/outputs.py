@@ -605,7 +605,7 @@ class Signal(Output):
     """Value of a signal, an input or a state.
 
     Args:
-        of: the name of a signal, an input or a state; a text.
+        of: the name of a signal, an input or a state, or of a component of a hydraulic part; a text.
         unit: unit of its values, such as "kN", for plots and tables; default none; a text, or nothing.
         woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.

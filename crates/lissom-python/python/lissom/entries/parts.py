@@ -278,6 +278,8 @@ class Part(Entry):
         states: First-order states: numbers whose time derivative is an expression; entries as in `[states]`, or nothing.
         events: Actions when expressions cross zero; entries as in `[events]`, or nothing.
         units: Co-simulation units (FMI) of other programs, advanced from sample to sample; entries as in `[units]`, or nothing.
+        fluids: Fluids of hydraulic parts; entries as in `[fluids]`, or nothing.
+        hydraulics: Hydraulic parts: nodes with a pressure, and components between them such as cylinders, valves and pumps; entries as in `[hydraulics]`, or nothing.
         outputs: Quantities to be recorded; entries as in `[outputs]`, or nothing.
     """
 
@@ -311,4 +313,6 @@ class Part(Entry):
     states: Tables | None = None
     events: Tables | None = None
     units: Tables | None = None
+    fluids: Tables | None = None
+    hydraulics: Tables | None = None
     outputs: Tables | None = None

@@ -9,6 +9,7 @@ entries! {
     /// A first-order state: a number whose time derivative is an expression.
     State => StateId, "state" {
         * derivative: Expression = "derivative", "time derivative \\[1/s\\]";
+        algebraic: bool = "algebraic", "Whether the value makes `derivative` zero at all times, as that of an infinitely fast state; `start` is a first guess; default `false`.";
         start: f64 = "start", "Value at the start; default 0.";
         magnitude: f64 = "magnitude", "Typical magnitude, relative to which errors are measured unless its value is larger; default 1.";
     }

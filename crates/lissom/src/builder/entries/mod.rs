@@ -5,6 +5,7 @@
 pub mod analyses;
 pub mod contacts;
 pub(crate) mod feedback;
+pub mod hydraulics;
 pub mod joints;
 pub mod loads;
 pub mod motions;

@@ -175,7 +175,7 @@ entries! {
 
     /// Value of a signal, an input or a state.
     Signal => OutputId, kind: "signal" {
-        * of: Quantity = "of", "the name of a signal, an input or a state";
+        * of: Quantity = "of", "the name of a signal, an input or a state, or of a component of a hydraulic part";
     }
 
     /// Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.
