@@ -10,6 +10,7 @@ pub mod dynamics;
 pub mod equilibrium;
 mod event_detector;
 mod events;
+mod exchange;
 mod held_values;
 pub mod joint_space;
 mod laws;
@@ -29,6 +30,7 @@ mod units;
 pub use crate::system::Need;
 pub(crate) use arc::ArcControl;
 pub(crate) use event_detector::{EventDetector, EventState};
+pub use exchange::ExchangedUnits;
 pub use held_values::InputError;
 pub use newton_trial::NewtonTrial;
 pub use recovery::{Recovered, Recovery};
@@ -84,6 +86,8 @@ pub struct Simulation {
     pub(crate) accumulation: Accumulation,
     /// Models of other programs.
     pub(crate) units: units::AttachedUnits,
+    /// Models of other programs whose equations are part of the system.
+    pub(crate) exchanged: ExchangedUnits,
     pub(crate) monitors: Monitors,
     /// Warnings about the motion up to the state.
     pub(crate) warnings: Vec<Warning>,
@@ -132,7 +136,8 @@ impl Simulation {
         };
         let held = self.state.kinematics.held.iter().zip(&self.previous.kinematics.held);
         let windows = [&*self.previous.kinematics.held, &self.state.kinematics.held];
-        let has_jumped = held.enumerate().any(is_jump)
+        let has_jumped = self.exchanged.has_event_at(self.state.kinematics.time)
+            || held.enumerate().any(is_jump)
             || graph.delays().iter().any(|delay| delay.jumps(self.state.kinematics.time, windows));
         if has_jumped { 0.0 } else { self.last_step() }
     }

@@ -96,6 +96,8 @@ impl Simulation {
     fn advance(&mut self, limit: f64, progress: &mut Progress<'_>) -> Result<(), StepError> {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
+        self.check_units()?;
+        self.execute_unit_events()?;
         self.trim_signals();
         let size = self.control.by_error().unwrap_or(longest).min(limit - now);
         self.stops.look_ahead(
@@ -120,6 +122,7 @@ impl Simulation {
             }
             self.move_windows()?;
             self.take_samples()?;
+            self.execute_unit_events()?;
             rest = end - self.now();
             let is_complete = has_arrived && stop.is_last || rest <= same;
             if planned.is_none() || is_complete || self.events.known.stopped_by.is_some() {
@@ -141,7 +144,8 @@ impl Simulation {
         let (now, longest) = (self.now(), self.control.longest());
         let mut stop = Stop { distance: rest, clock: limit, crossing: None, is_last: true };
         let windows = Some(self.end_of_windows()).filter(|end| end.is_finite());
-        let nearest = self.next_sample().into_iter().chain(windows).reduce(f64::min);
+        let known = windows.into_iter().chain(self.exchanged.next());
+        let nearest = self.next_sample().into_iter().chain(known).reduce(f64::min);
         let nearest = nearest.filter(|instant| instant - now < rest - instants::tolerance(now, longest));
         if let Some(instant) = nearest {
             (stop.distance, stop.clock, stop.is_last) = (instant - now, limit.and(Some(instant)), false);
@@ -189,6 +193,7 @@ impl Simulation {
             self.integrator.has_last_step = true;
             self.report_unresolved_laws();
             let is_event = located.is_some();
+            self.complete_units()?;
             self.after_events(located.as_ref(), self.control.longest())?;
             if self.events.known.has_switched {
                 self.integrator.work.forget_predictions();
@@ -210,6 +215,9 @@ impl Simulation {
                 Ok(Verdict::Shorten) => None,
                 Err(error) => Some(error),
             };
+            if let Some(fault) = error.is_some().then(|| self.unit_fault()).flatten() {
+                return Err(fault);
+            }
             if progress.watch.is_cancelled() {
                 return Err(StepError::Interrupted { time: self.state.kinematics.time });
             }
@@ -224,6 +232,7 @@ impl Simulation {
             };
             if !(may_help && self.control.shorten(size, has_solution)) {
                 let error = progress.failure.take().unwrap_or_else(|| self.too_inaccurate(size));
+                let error = self.take_discarded().unwrap_or(error);
                 return Err(self.with_cause(error, self.control.has_tried_shortest()));
             }
             progress.report.rejected += 1;

@@ -237,7 +237,7 @@ impl Simulation {
             monitors: self.monitors.save(),
             learned: self.integrator.work.learned(),
             history: self.stops.history.clone(),
-            units: self.units.save(),
+            units: self.saved_units(),
         }
     }
 
@@ -257,7 +257,7 @@ impl Simulation {
                 found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
             });
         }
-        self.restore_units(&from.units)?;
+        self.restore_units(&from.units, &State::from(&from.states[1]).kinematics)?;
         let is_read = self.integrator.work.restore(&self.system, &from.learned).is_ok()
             && self.control.restore(&from.control)
             && self.monitors.restore(&from.monitors);

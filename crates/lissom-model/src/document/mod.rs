@@ -73,7 +73,7 @@ pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, Loca
 pub(crate) use shells::area_arguments;
 pub use shells::{AreaLoad, Layer, Shell};
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
-pub use units::UnitEntry;
+pub use units::{ExchangeGroup, ExchangePorts, UnitEntry, UnitMode};
 
 /// A model as it was written, checked.
 ///
@@ -143,7 +143,7 @@ pub struct Document {
     pub states: Vec<StateEntry>,
     /// Actions when expressions cross zero.
     pub events: Vec<EventEntry>,
-    /// Co-simulation units of other programs.
+    /// Units of other programs.
     pub units: Vec<UnitEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,

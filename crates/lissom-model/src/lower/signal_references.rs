@@ -32,4 +32,6 @@ pub(super) struct SignalReferences {
     pub(super) readings: Vec<NamedComponent<DiscreteValueId>>,
     /// Outputs that are expressions and are being resolved, each named by the one before.
     pub(super) open_expressions: Vec<String>,
+    /// Units with equations.
+    pub(super) exchanged: BTreeMap<String, super::exchange::Added>,
 }
