@@ -1,8 +1,11 @@
 //! Units with equations in a simulation: their start, the ends of accepted steps, and their events. State events are roots of
-//! indicators, which end steps as other events do; steps also end at events that a unit announces. After an event states of the unit
-//! may jump, and accelerations, multipliers and rates jump with its outputs.
+//! indicators, which end steps as other events do; steps also end at events that a unit announces. Events are executed at the start of the
+//! next step: until then the unit has the discrete state of the last one, in which records within it are evaluated. After an event
+//! states of the unit may jump, and accelerations, multipliers and rates jump with its outputs.
 
 use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use super::{Simulation, SnapshotError};
 use crate::consistent::initial_conditions::moved;
@@ -21,6 +24,12 @@ pub struct ExchangedUnits {
 
 struct Exchanged {
     slot: Arc<UnitSlot>,
+    events: UnitEvents,
+}
+
+/// Events of a unit between two steps.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct UnitEvents {
     /// Next event that is known in advance [s].
     next: Option<f64>,
     /// Inputs at the end of the last step, before they jump there.
@@ -32,6 +41,9 @@ struct Exchanged {
     /// Whether an event is due at the state.
     is_due: bool,
 }
+
+/// Events of a unit with its state, if it can return it.
+pub(crate) type SavedEquations = (UnitEvents, Option<Vec<u8>>);
 
 impl Drop for ExchangedUnits {
     fn drop(&mut self) {
@@ -60,7 +72,7 @@ impl ExchangedUnits {
             ports.slot.attach(unit).map_err(failed(ports))?;
             let slot = Arc::clone(&ports.slot);
             let (inputs, reached) = (vec![f64::NAN; ports.inputs.len()], at.time);
-            all.own.push(Exchanged { slot, next: None, inputs, reached, crossed: Vec::new(), is_due: false });
+            all.own.push(Exchanged { slot, events: UnitEvents { inputs, reached, ..UnitEvents::default() } });
         }
         // Units in series pass values on by one unit at a time; a contraction in a loop of feedthrough needs more passes.
         for pass in 0..=100 {
@@ -76,11 +88,11 @@ impl ExchangedUnits {
                     let remedy = "check the expressions of its inputs, and its start values".to_owned();
                     return Err(failed(ports)(UnitFault { cause, remedy }));
                 }
-                if pass == 0 || inputs != own.inputs {
+                if pass == 0 || inputs != own.events.inputs {
                     agree = false;
                     let states = own.slot.call(|unit| unit.begin(&inputs)).map_err(failed(ports))?;
                     set_states(ports, &states, at);
-                    own.inputs = inputs;
+                    own.events.inputs = inputs;
                 }
             }
             if agree {
@@ -90,7 +102,7 @@ impl ExchangedUnits {
         let points: Vec<_> = graph.exchanged.iter().map(|ports| ports.point(graph, at)).collect();
         for ((own, ports), point) in all.own.iter_mut().zip(&graph.exchanged).zip(points) {
             let after = own.slot.call(|unit| unit.event(&point)).map_err(failed(ports))?;
-            own.next = after.next;
+            own.events.next = after.next;
             set_states(ports, &after.states, at);
         }
         Ok(all)
@@ -106,46 +118,26 @@ impl ExchangedUnits {
         self.own.is_empty()
     }
 
-    /// Whether an event has happened at `time` [s].
-    pub(super) fn has_event_at(&self, time: f64) -> bool {
-        self.own.iter().any(|own| own.reached == time)
-    }
-
     /// The next event that is known in advance [s].
     pub(super) fn next(&self) -> Option<f64> {
-        self.own.iter().filter_map(|own| own.next).reduce(f64::min)
+        self.own.iter().filter_map(|own| own.events.next).reduce(f64::min)
     }
 
-    /// States of all units, with the bits of the times of their next events.
-    pub(super) fn save(&self) -> impl Iterator<Item = (u64, Option<Vec<u8>>)> + '_ {
-        self.own.iter().map(|own| {
-            let state = own.slot.call(|unit| Ok(unit.save())).ok().flatten();
-            let state = state.map(|state| [&own.reached.to_le_bytes()[..], &*state].concat());
-            (own.next.unwrap_or(f64::INFINITY).to_bits(), state)
-        })
+    /// Events and states of all units.
+    pub(super) fn save(&self) -> Vec<SavedEquations> {
+        let of = |own: &Exchanged| (own.events.clone(), own.slot.call(|unit| Ok(unit.save())).ok().flatten());
+        self.own.iter().map(of).collect()
     }
 
-    /// Returns to saved states, of which `at` is the configuration.
-    pub(super) fn restore(
-        &mut self,
-        system: &System,
-        at: &Kinematics,
-        saved: &[(u64, Option<Vec<u8>>)],
-    ) -> Result<(), SnapshotError> {
-        let graph = system.signals();
-        for ((own, ports), (next, state)) in self.own.iter_mut().zip(&graph.exchanged).zip(saved) {
+    /// Returns to what was saved.
+    pub(super) fn restore(&mut self, saved: &[SavedEquations]) -> Result<(), SnapshotError> {
+        for (own, (events, state)) in self.own.iter_mut().zip(saved) {
             let state = state.as_deref().unwrap_or_default();
-            let Some((reached, state)) = state.split_first_chunk::<8>() else {
-                return Err(SnapshotError::Damaged {});
-            };
             own.slot.call(|unit| unit.restore(state)).map_err(|fault| SnapshotError::UnitRestore {
                 unit: own.slot.name().to_owned(),
                 reason: fault.cause,
             })?;
-            own.next = Some(f64::from_bits(*next)).filter(|next| next.is_finite());
-            own.reached = f64::from_le_bytes(*reached);
-            own.inputs = ports.point(graph, at).inputs;
-            (own.is_due, own.crossed) = (false, Vec::new());
+            own.events.clone_from(events);
         }
         Ok(())
     }
@@ -205,9 +197,10 @@ impl Simulation {
             .exchanged
             .own
             .iter()
-            .find(|own| own.reached - now > instants::tolerance(now, self.control.longest()));
+            .find(|own| own.events.reached - now > instants::tolerance(now, self.control.longest()));
         ahead.map_or(Ok(()), |own| {
-            let cause = format!("it had an event at t = {} s, and cannot return to before it", own.reached);
+            let cause =
+                format!("it had an event at t = {} s, and cannot return to before it", own.events.reached);
             let remedy = "start the simulation again, or restore a snapshot".to_owned();
             Err(error_of(&own.slot, now, UnitFault { cause, remedy }))
         })
@@ -223,8 +216,9 @@ impl Simulation {
         let (graph, at) = (self.system.signals(), &self.state.kinematics);
         for (own, ports) in self.exchanged.own.iter_mut().zip(&graph.exchanged) {
             let point = ports.point(graph, at);
-            own.is_due |= own.slot.complete(&point).map_err(|fault| error_of(&own.slot, at.time, fault))?;
-            own.inputs = point.inputs;
+            own.events.is_due |=
+                own.slot.complete(&point).map_err(|fault| error_of(&own.slot, at.time, fault))?;
+            own.events.inputs = point.inputs;
         }
         self.check_evaluation()
     }
@@ -232,8 +226,9 @@ impl Simulation {
     /// Notes which events were indicators of units.
     pub(super) fn note_indicators(&mut self, happened: &[usize]) {
         for (own, ports) in self.exchanged.own.iter_mut().zip(&self.system.signals().exchanged) {
-            own.crossed = happened.iter().copied().filter(|event| ports.indicators.contains(event)).collect();
-            own.is_due |= !own.crossed.is_empty();
+            own.events.crossed =
+                happened.iter().copied().filter(|event| ports.indicators.contains(event)).collect();
+            own.events.is_due |= !own.events.crossed.is_empty();
         }
     }
 
@@ -245,10 +240,11 @@ impl Simulation {
         }
         let (now, longest) = (self.now(), self.control.longest());
         for own in &mut self.exchanged.own {
-            let Some(next) = own.next.filter(|next| *next <= now + instants::tolerance(now, longest)) else {
+            let Some(next) = own.events.next.filter(|next| *next <= now + instants::tolerance(now, longest))
+            else {
                 continue;
             };
-            own.is_due = true;
+            own.events.is_due = true;
             if next > self.state.kinematics.time {
                 // The unit compares its time with the one it has announced.
                 (self.state.kinematics.time, self.state.time_remainder) = (next, 0.0);
@@ -260,10 +256,10 @@ impl Simulation {
             let graph = self.system.signals();
             for (own, ports) in self.exchanged.own.iter_mut().zip(&graph.exchanged) {
                 let inputs = ports.point(graph, &self.state.kinematics).inputs;
-                own.is_due |= have_jumped(&own.inputs, &inputs);
-                own.inputs = inputs;
+                own.events.is_due |= have_jumped(&own.events.inputs, &inputs);
+                own.events.inputs = inputs;
             }
-            if !self.exchanged.own.iter().any(|own| own.is_due) {
+            if !self.exchanged.own.iter().any(|own| own.events.is_due) {
                 return before.map_or(Ok(()), |before| self.end_unit_events(before));
             }
             if before.is_none() {
@@ -271,17 +267,17 @@ impl Simulation {
             }
             for (index, ports) in self.system.signals().exchanged.iter().enumerate() {
                 let own = &mut self.exchanged.own[index];
-                if !std::mem::take(&mut own.is_due) {
+                if !std::mem::take(&mut own.events.is_due) {
                     continue;
                 }
-                let crossed = std::mem::take(&mut own.crossed);
+                let crossed = std::mem::take(&mut own.events.crossed);
                 let beyond = self.beyond(&crossed);
                 let mut point = ports.point(self.system.signals(), &beyond.kinematics);
                 point.time = time;
                 let own = &mut self.exchanged.own[index];
                 let after = own.slot.call(|unit| unit.event(&point));
                 let after = after.map_err(|fault| error_of(&own.slot, time, fault))?;
-                (own.next, own.reached) = (after.next, time);
+                (own.events.next, own.events.reached) = (after.next, time);
                 for ((&coordinate, before), after) in
                     ports.states.iter().zip(&point.states).zip(&after.states)
                 {

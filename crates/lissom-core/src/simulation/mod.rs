@@ -31,6 +31,7 @@ pub use crate::system::Need;
 pub(crate) use arc::ArcControl;
 pub(crate) use event_detector::{EventDetector, EventState};
 pub use exchange::ExchangedUnits;
+pub(crate) use exchange::SavedEquations;
 pub use held_values::InputError;
 pub use newton_trial::NewtonTrial;
 pub use recovery::{Recovered, Recovery};
@@ -136,8 +137,7 @@ impl Simulation {
         };
         let held = self.state.kinematics.held.iter().zip(&self.previous.kinematics.held);
         let windows = [&*self.previous.kinematics.held, &self.state.kinematics.held];
-        let has_jumped = self.exchanged.has_event_at(self.state.kinematics.time)
-            || held.enumerate().any(is_jump)
+        let has_jumped = held.enumerate().any(is_jump)
             || graph.delays().iter().any(|delay| delay.jumps(self.state.kinematics.time, windows));
         if has_jumped { 0.0 } else { self.last_step() }
     }

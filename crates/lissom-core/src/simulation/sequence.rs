@@ -97,7 +97,6 @@ impl Simulation {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
         self.check_units()?;
-        self.execute_unit_events()?;
         self.trim_signals();
         let size = self.control.by_error().unwrap_or(longest).min(limit - now);
         self.stops.look_ahead(
@@ -111,6 +110,7 @@ impl Simulation {
         // The size of the first part is exact.
         let mut rest = planned.unwrap_or(limit - self.now());
         loop {
+            self.execute_unit_events()?;
             let mut stop = self.next_stop(rest, planned.is_none().then_some(limit));
             let touch = self.integrator.first_touch(&self.system, &self.state, stop.distance);
             if let Some(distance) = touch {
@@ -122,7 +122,6 @@ impl Simulation {
             }
             self.move_windows()?;
             self.take_samples()?;
-            self.execute_unit_events()?;
             rest = end - self.now();
             let is_complete = has_arrived && stop.is_last || rest <= same;
             if planned.is_none() || is_complete || self.events.known.stopped_by.is_some() {

@@ -2,7 +2,7 @@
 //! outputs are held values, which change before the signals of that instant are sampled.
 
 use super::units::{AttachedUnit, Unit, UnitFault, check_finite};
-use super::{Simulation, SnapshotError};
+use super::{SavedEquations, Simulation, SnapshotError};
 use crate::errors::{InitialError, StepError};
 use crate::instants;
 use crate::kinematics::Kinematics;
@@ -106,25 +106,23 @@ impl Simulation {
     /// # Errors
     /// The first unit that cannot return its state.
     pub fn check_snapshots(&self) -> Result<(), SnapshotError> {
-        self.check_saved(&self.saved_units())
+        self.check_saved(&self.units.save(), &self.exchanged.save())
     }
 
-    /// States of all units: of those with samples, then of those with equations.
-    pub(super) fn saved_units(&self) -> Vec<(u64, Option<Vec<u8>>)> {
-        let mut saved = self.units.save();
-        saved.extend(self.exchanged.save());
-        saved
-    }
-
-    /// Names of all units, in this order.
+    /// Names of all units: of those with samples, then of those with equations.
     fn unit_names(&self) -> impl Iterator<Item = &str> {
         let graph = self.system.signals();
         let exchanged = graph.exchanged.iter().map(|ports| ports.slot.name());
         graph.units.iter().map(|ports| ports.name.as_str()).chain(exchanged)
     }
 
-    fn check_saved(&self, saved: &[(u64, Option<Vec<u8>>)]) -> Result<(), SnapshotError> {
-        let mut unsaved = self.unit_names().zip(saved).filter(|(_, (_, state))| state.is_none());
+    fn check_saved(
+        &self,
+        saved: &[(u64, Option<Vec<u8>>)],
+        exchanged: &[SavedEquations],
+    ) -> Result<(), SnapshotError> {
+        let states = saved.iter().map(|(_, state)| state).chain(exchanged.iter().map(|(_, state)| state));
+        let mut unsaved = self.unit_names().zip(states).filter(|(_, state)| state.is_none());
         unsaved.next().map_or(Ok(()), |(name, _)| Err(SnapshotError::Unit { unit: name.to_owned() }))
     }
 
@@ -132,16 +130,15 @@ impl Simulation {
     pub(super) fn restore_units(
         &mut self,
         saved: &[(u64, Option<Vec<u8>>)],
-        at: &Kinematics,
+        exchanged: &[SavedEquations],
     ) -> Result<(), SnapshotError> {
         let ports = &self.system.signals().units;
-        if self.units.units.len() + self.exchanged.count() != saved.len() {
+        if (self.units.units.len(), self.exchanged.count()) != (saved.len(), exchanged.len()) {
             let unit = self.unit_names().next().unwrap_or_default().to_owned();
             return Err(SnapshotError::Unit { unit });
         }
-        self.check_saved(saved)?;
-        let exchanged = saved.get(self.units.units.len()..).unwrap_or_default();
-        self.exchanged.restore(&self.system, at, exchanged)?;
+        self.check_saved(saved, exchanged)?;
+        self.exchanged.restore(exchanged)?;
         for ((own, ports), (samples, state)) in self.units.units.iter_mut().zip(ports).zip(saved) {
             let state = state.as_deref().unwrap_or_default();
             own.unit.restore(state).map_err(|fault| SnapshotError::UnitRestore {

@@ -20,7 +20,8 @@ pub(super) fn of(
     for (&index, (name, _)) in inputs.iter().zip(&entry.inputs) {
         if !variables[index].is_continuous {
             let message = format!("the input `{}` of unit `{unit}` is not continuous", name.value);
-            let help = "model exchange has continuous inputs of type Float64 (Real) alone; use co-simulation";
+            let help =
+                "remove it: it keeps its start value, which `parameters` may set; or use co-simulation";
             return Err(Box::new(Problem::error(name.span, message).label("here").help(help)));
         }
     }

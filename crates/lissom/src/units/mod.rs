@@ -115,6 +115,7 @@ fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<ExchangePorts>), Box<
     let missing = description.variables.iter().find(|own| {
         own.causality == "input"
             && own.variable.is_some()
+            && (mode == UnitMode::CoSimulation || own.is_continuous)
             && !entry.inputs.iter().any(|(given, _)| given.value == own.name)
     });
     if let Some(missing) = missing {

@@ -241,7 +241,7 @@ impl Connection {
                         "it needs a Python interpreter: run the model from Python, or set {PROGRAM}=python3"
                     )
                 } else {
-                    "check its inputs, its parameters and its step `sample`".to_owned()
+                    "check its inputs and parameters, and its step `sample` if it has one".to_owned()
                 };
                 return Err(UnitFault { cause, remedy });
             }
