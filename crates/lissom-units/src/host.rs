@@ -192,7 +192,16 @@ impl Hosted {
         let rows: Vec<usize> = rows.chain(of_states.filter(|_| has_derivatives)).collect();
         let mut set =
             |row: usize, column: usize, value: f64| derivatives[row * arguments.len() + column] = value;
-        if exchange.differentiates {
+        if group.differentiates {
+            // An output that is a state is no unknown of the structure.
+            let state_of = |row: &usize| {
+                let own = outputs.get(*row)?.reference;
+                exchange.states.iter().position(|state| *state == own)
+            };
+            for (&row, state) in rows.iter().filter_map(|row| Some((row, state_of(row)?))) {
+                set(row, state, 1.0);
+            }
+            let rows: Vec<usize> = rows.into_iter().filter(|row| state_of(row).is_none()).collect();
             let unknowns: Vec<u32> = rows.iter().map(|&row| reference(&exchange, &outputs, row)).collect();
             let knowns = exchange.states.iter().copied().chain(variables.iter().map(|own| own.reference));
             for (column, known) in knowns.enumerate().filter(|_| !unknowns.is_empty()) {
@@ -211,7 +220,9 @@ impl Hosted {
             let step = beside[column] - arguments[column];
             let (states, inputs) = beside.split_at(states.len());
             let found = values_at(self, states, inputs)?;
-            rows.iter().for_each(|&row| set(row, column, (found[row] - values[row]) / step));
+            for &row in &rows {
+                set(row, column, (found[row] - values[row]) / step);
+            }
         }
         values_at(self, states, inputs)?;
         Ok(Answer::Evaluated { values, derivatives })

@@ -74,8 +74,6 @@ pub struct Exchange {
     pub indicators: usize,
     /// Nominal values of the states, then of the inputs: increments for differences.
     pub nominals: Vec<f64>,
-    /// Whether the unit provides directional derivatives.
-    pub differentiates: bool,
     /// Whether the unit must be notified of accepted steps.
     pub completes: bool,
     /// Values that are evaluated at once.
@@ -93,6 +91,8 @@ pub struct Group {
     pub continuous: Vec<usize>,
     /// Whether derivatives of states and event indicators are in the group.
     pub has_derivatives: bool,
+    /// Whether the unit provides directional derivatives of all of them.
+    pub differentiates: bool,
 }
 
 /// A request to the process of a unit.

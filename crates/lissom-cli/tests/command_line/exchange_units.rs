@@ -234,6 +234,37 @@ fn equations_of_a_unit_are_those_of_states() {
 }
 
 #[test]
+fn units_in_a_loop_are_equal_to_states() {
+    let folder = folder_with("exchange-loop", 3, "van der pol", [2, 0], EXACT);
+    write_unit_with(&folder.path().join("filter.fmu"), 2, &description(2, "filter", [1, 0], EXACT), &LIBRARY);
+    // `alpha.w` is zero, and no output of the model structure. The first in the order of names needs the second, whose input needs an output of the first without feedthrough.
+    let units = VAN_DER_POL.replace("osc", "zeta").replace("{ y = \"y\" }", "{ y = \"y\", b = \"x[2]\" }")
+        + &FILTER
+            .replace("osc", "alpha")
+            .replace("unit.fmu", "filter.fmu")
+            .replace("y = \"y\"", "y = \"y\", w = \"x[2]\"")
+            .replace("arm.rate", "zeta.b + sum")
+        + "[signals]\nsum = \"arm.rate + zeta.y\"\n";
+    let units = units.replacen("4*arm.angle + arm.rate", "4*arm.angle + alpha.y", 1);
+    let states = VAN_DER_POL_STATES.replace("arm.rate", "high").replace("[signals]", "")
+        + "high = \"-3*(u - c)\"\nu = \"1 + 4*arm.angle + b + sum\"\nsum = \"arm.rate + y\"\n\
+           [states.c]\nderivative = \"(u - c)/0.02\"\nstart = 0.5\nmagnitude = 2\n";
+    let states = states.replace("y = \"a", "[signals]\ny = \"a");
+    for choice in [&[][..], &["--set", "analysis.scheme=radau-iia-5"]] {
+        let (expected, iterations) = results(&folder, &model("y + 0.1*b", &states), choice);
+        let (found, own) = results(&folder, &model("zeta.y + 0.1*zeta.b + alpha.w", &units), choice);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-9 * expected.abs().max(1.0), "{found}, not {expected}");
+        }
+        assert!(own.abs_diff(iterations) <= iterations / 20, "{own} iterations, not {iterations}");
+    }
+    // A loop of feedthrough has no order.
+    let ended = run(&folder, &model("zeta.y", &units.replace("zeta.b + sum", "alpha.y")), &[]);
+    assert_eq!(ended.code, 2, "{}", ended.errors);
+    assert!(ended.errors.contains("algebraic loop"), "{}", ended.errors);
+}
+
+#[test]
 fn wrong_derivatives_cost_iterations() {
     let folder = folder_with("exchange-wrong", 3, "van der pol", [2, 0], EXACT);
     let (expected, iterations) = results(&folder, &model("5*osc.y", VAN_DER_POL), &[]);

@@ -260,7 +260,7 @@ impl Simulation {
                 own.events.inputs = inputs;
             }
             if !self.exchanged.own.iter().any(|own| own.events.is_due) {
-                return before.map_or(Ok(()), |before| self.end_unit_events(before));
+                return before.map_or(Ok(()), |before: Vec<f64>| self.end_unit_events(&before));
             }
             if before.is_none() {
                 before = Some(self.accelerations_of_state()?);
@@ -302,11 +302,11 @@ impl Simulation {
     }
 
     /// Continues after events of units, before which the accelerations were `before`.
-    fn end_unit_events(&mut self, before: Vec<f64>) -> Result<(), StepError> {
+    fn end_unit_events(&mut self, before: &[f64]) -> Result<(), StepError> {
         let time = self.state.kinematics.time;
         let mut jump = self.accelerations_of_state()?;
         self.check_evaluation()?;
-        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        jump.iter_mut().zip(before).for_each(|(after, before)| *after -= before);
         if !jump.is_empty() {
             self.add_jump(jump);
         }

@@ -97,11 +97,7 @@ pub(super) fn keys() -> Vec<Key> {
             Shape::Choice(Cow::Borrowed(&MODES)),
             "for units that support both: steps of its own, or equations solved with those of the model; default the first",
         ),
-        unitless(
-            "inputs",
-            Shape::Table,
-            "input variables of the unit, with expressions of their values at samples",
-        ),
+        unitless("inputs", Shape::Table, "input variables of the unit, with expressions of their values"),
         unitless(
             "outputs",
             Shape::Table,

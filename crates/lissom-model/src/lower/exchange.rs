@@ -75,25 +75,8 @@ pub(super) fn add_group(
     added.open.push(group);
     let mut arguments = added.arguments.clone();
     let members = &ports.groups[group];
-    for &input in &members.inputs {
-        let known = names.references.exchanged.get(name).and_then(|added| added.inputs[input]);
-        let signal = match known {
-            Some(signal) => signal,
-            None => {
-                let (variable, expression) = &unit.inputs[input];
-                let what = format!("`inputs.{}`", variable.value);
-                add_formula(
-                    document,
-                    builder,
-                    names,
-                    &Subject::new("unit", name).component(&what),
-                    expression,
-                )?
-            }
-        };
-        if let Some(added) = names.references.exchanged.get_mut(name) {
-            added.inputs[input] = Some(signal);
-        }
+    for &index in &members.inputs {
+        let signal = input(document, builder, names, (unit, index))?;
         arguments.push(Argument::Signal(signal));
     }
     let own = members.outputs.iter().map(|&output| unit.outputs[output].0.clone());
@@ -123,6 +106,27 @@ pub(super) fn add_group(
         added.open.retain(|open| *open != group);
     }
     Ok(())
+}
+
+/// The signal of an input, which is added if it is not there.
+fn input(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    (unit, index): (&UnitEntry, usize),
+) -> Result<SignalId, Problem> {
+    let name = &unit.name.value;
+    let known = names.references.exchanged.get(name).and_then(|added| added.inputs[index]);
+    if let Some(signal) = known {
+        return Ok(signal);
+    }
+    let (variable, expression) = &unit.inputs[index];
+    let subject = Subject::new("unit", name).component(&format!("`inputs.{}`", variable.value));
+    let signal = add_formula(document, builder, names, &subject, expression)?;
+    if let Some(added) = names.references.exchanged.get_mut(name) {
+        added.inputs[index] = Some(signal);
+    }
+    Ok(signal)
 }
 
 /// Adds the rest of a unit: all groups, derivatives of states, and events.

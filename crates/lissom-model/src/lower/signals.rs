@@ -399,9 +399,7 @@ fn resolve(
     if let Some(unit) = document.units.iter().find(|unit| unit.name.value == owner) {
         if let Some(group) = unit.group_of(component) {
             exchange::add_group(document, builder, names, (unit, group))?;
-        }
-        if let Some(&known) = names.signals.get(&name.text) {
-            return Ok(known);
+            return names.signals.get(&name.text).copied().ok_or_else(|| problem("it is unknown".to_owned()));
         }
         let help = suggest::help(component, unit.outputs.iter().map(|(output, _)| output.as_str()));
         let help =

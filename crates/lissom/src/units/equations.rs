@@ -53,27 +53,36 @@ pub(super) fn of(
         of_derivatives.inputs = all.collect::<std::collections::BTreeSet<_>>().into_iter().collect();
     }
     let has_derivatives = description.indicators > 0 || !states.is_empty();
-    let mut groups = if has_derivatives { vec![of_derivatives] } else { Vec::new() };
+    // Each with whether the structure of the unit has all its values: others have no directional derivatives.
+    let mut groups = if has_derivatives { vec![(of_derivatives, true)] } else { Vec::new() };
     let outputs: Vec<usize> = entry.outputs.iter().filter_map(|(_, name)| find(&name.value)).collect();
     for (position, &index) in outputs.iter().enumerate() {
-        let structure = description.outputs.iter().chain(&description.derivatives);
-        let known = structure.into_iter().find(|(own, _)| *own == index).and_then(|(_, list)| list.as_ref());
+        let mut structure = description.outputs.iter().chain(&description.derivatives);
+        let known = structure.find(|(own, _)| *own == index);
         // States depend on no input, and variables that change at events alone are constant between them.
-        let is_state = states.iter().any(|state| state.name == variables[index].name);
+        let is_state = states.iter().any(|state| state.reference == variables[index].reference);
         let is_constant = is_state || !variables[index].is_continuous;
-        let own = if is_constant { Vec::new() } else { needed(known) };
-        match groups.iter_mut().find(|group| group.inputs == own) {
-            Some(group) => group.outputs.push(position),
-            None => {
-                groups.push(ExchangeGroup { inputs: own, outputs: vec![position], has_derivatives: false })
-            }
+        let own = if is_constant { Vec::new() } else { needed(known.and_then(|(_, list)| list.as_ref())) };
+        let is_known = is_constant || known.is_some();
+        let same = groups.iter_mut().find(|(group, known)| group.inputs == own && *known == is_known);
+        if let Some((group, _)) = same {
+            group.outputs.push(position);
+        } else {
+            let group = ExchangeGroup { inputs: own, outputs: vec![position], has_derivatives: false };
+            groups.push((group, is_known));
         }
     }
-    let of_process = groups.iter().map(|group| {
+    let of_process = groups.iter().map(|(group, is_known)| {
         let is_continuous = |&(_, &output): &(usize, &usize)| variables[outputs[output]].is_continuous;
         let continuous = group.outputs.iter().enumerate().filter(is_continuous).map(|(row, _)| row).collect();
         let ExchangeGroup { inputs, outputs, has_derivatives } = group.clone();
-        Group { inputs, outputs, continuous, has_derivatives }
+        Group {
+            inputs,
+            outputs,
+            continuous,
+            has_derivatives,
+            differentiates: *is_known && kind.differentiates,
+        }
     });
     let exchange = Exchange {
         states: states.iter().map(|state| state.reference).collect(),
@@ -84,10 +93,10 @@ pub(super) fn of(
             .map(|own| own.nominal)
             .chain(inputs.iter().map(|&own| variables[own].nominal))
             .collect(),
-        differentiates: kind.differentiates,
         completes: kind.completes,
         groups: of_process.collect(),
     };
     let states = states.iter().map(|state| (state.name.clone(), state.nominal)).collect();
+    let groups = groups.into_iter().map(|(group, _)| group).collect();
     Ok((ExchangePorts { states, indicators: description.indicators, groups }, exchange))
 }
