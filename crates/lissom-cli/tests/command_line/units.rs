@@ -374,7 +374,12 @@ fn a_killed_run_continues_with_the_state_of_its_unit() {
     let arguments = ["run", "model.toml", "--no-plots", "--out", "out", "--checkpoint-every", "50steps"];
     let mut started = Run::start(&arguments, folder.path());
     let checkpoint = folder.path().join("out/checkpoint.lissom");
-    wait_for(|| checkpoint.is_file());
+    // The first checkpoint is that of the start.
+    let rows = || {
+        std::fs::read_to_string(folder.path().join("out/history.csv"))
+            .map_or(0, |table| table.lines().count())
+    };
+    wait_for(|| checkpoint.is_file() && rows() > 500);
     started.0.kill().unwrap();
     drop(started);
     assert!(checkpoint.is_file(), "the run was not killed before its end");
