@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use lissom_mechanics::kinematics::{CoordinateId, Subject};
+use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::signals::coordinate::{Coordinate, Of};
 use lissom_mechanics::signals::event::{Direction, Event};
 use lissom_mechanics::signals::exchange::{ExchangedUnit, UnitSlot, UnitValue};
@@ -11,23 +11,10 @@ use lissom_mechanics::signals::{Argument, Signal, SignalId};
 use lissom_system::Builder;
 
 use super::names::Names;
+use super::signal_references::AddedUnit;
 use super::signals::add_formula;
 use crate::document::{Document, ExchangePorts, UnitEntry};
 use crate::text::report::Problem;
-
-/// What is added of a unit.
-#[derive(Clone)]
-pub(super) struct Added {
-    slot: Arc<UnitSlot>,
-    states: Vec<CoordinateId>,
-    /// The states as arguments of its values.
-    arguments: Vec<Argument>,
-    inputs: Vec<Option<SignalId>>,
-    /// For each group its signals; none before they are added, and while they are.
-    groups: Vec<Option<Vec<SignalId>>>,
-    /// Groups whose inputs are being added.
-    open: Vec<usize>,
-}
 
 /// Adds the states of a unit.
 pub(super) fn add_states(builder: &mut Builder, names: &mut Names, unit: &UnitEntry, ports: &ExchangePorts) {
@@ -40,7 +27,7 @@ pub(super) fn add_states(builder: &mut Builder, names: &mut Names, unit: &UnitEn
         let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
         arguments.push(Argument::Measured(measured));
     }
-    let added = Added {
+    let added = AddedUnit {
         slot: Arc::new(UnitSlot::new(name)),
         states,
         arguments,
