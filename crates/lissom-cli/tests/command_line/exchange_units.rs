@@ -216,14 +216,18 @@ fn equations_of_a_unit_are_those_of_states() {
                 assert_eq!(found.len(), expected.len(), "{choice:?}");
                 for (found, expected) in found.iter().zip(&expected) {
                     // With derivatives by differences the iterates differ, and so do steps that follow the error.
-                    let allowed = if flags.is_empty() { 1e-6 } else { 1e-9 };
+                    // The explicit function of time in the states also limits adaptive steps; of a unit it is not known.
+                    let is_adaptive = choice.contains(&"--unset");
+                    let allowed = if flags.is_empty() || is_adaptive { 1e-6 } else { 1e-9 };
                     assert!(
                         (found - expected).abs() < allowed * expected.abs().max(1.0),
                         "{kind} {version} {choice:?}: {found}, not {expected}"
                     );
                 }
                 // All derivatives of states depend on all inputs of the unit, so that the pattern and the choice of when to factor may differ.
-                let allowed = if flags.is_empty() || states > 1 { iterations / 20 } else { 0 };
+                let is_free = states > 1 && choice.contains(&"--unset");
+                let part = if is_free { 2 } else { 20 };
+                let allowed = if flags.is_empty() || states > 1 { iterations / part } else { 0 };
                 assert!(
                     own.abs_diff(iterations) <= allowed,
                     "{kind} {version} {choice:?}: {own} iterations, not {iterations}"
