@@ -218,7 +218,9 @@ fn equations_of_a_unit_are_those_of_states() {
                     // With derivatives by differences the iterates differ, and so do steps that follow the error.
                     // The explicit function of time in the states also limits adaptive steps; of a unit it is not known.
                     let is_adaptive = choice.contains(&"--unset");
-                    let allowed = if flags.is_empty() || is_adaptive { 1e-6 } else { 1e-9 };
+                    // Newton's method may end elsewhere within its tolerance, which relaxation oscillations amplify.
+                    let exact = if states > 1 { 1e-7 } else { 1e-9 };
+                    let allowed = if flags.is_empty() || is_adaptive { 1e-6 } else { exact };
                     assert!(
                         (found - expected).abs() < allowed * expected.abs().max(1.0),
                         "{kind} {version} {choice:?}: {found}, not {expected}"
