@@ -9,6 +9,7 @@ mod changes;
 mod codes;
 mod data_file;
 mod determinism;
+mod exchange_units;
 mod export;
 mod failures;
 mod files;

@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 
 use libloading::Library;
 
-use crate::messages::{Opening, Standard, Variable, VariableType};
+use crate::messages::{Opening, Point, Standard, Variable, VariableType};
 
 type Instance = *mut c_void;
 type Status = c_int;
@@ -70,6 +70,8 @@ pub(crate) struct Unit {
     instance: Instance,
     /// Whether it has left its initialisation, and no function failed fatally.
     may_terminate: bool,
+    /// Whether the last function that failed has discarded its arguments.
+    has_discarded: bool,
     /// Used by the unit as long as it exists.
     _callbacks: Box<Callbacks>,
 }
@@ -80,6 +82,7 @@ type Get<T> = unsafe extern "C" fn(Instance, *const u32, usize, *mut T) -> Statu
 type Get3<T> = unsafe extern "C" fn(Instance, *const u32, usize, *mut T, usize) -> Status;
 type Set<T> = unsafe extern "C" fn(Instance, *const u32, usize, *const T) -> Status;
 type Set3<T> = unsafe extern "C" fn(Instance, *const u32, usize, *const T, usize) -> Status;
+type Log = extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
 type Deserialize = unsafe extern "C" fn(Instance, *const u8, usize, *mut *mut c_void) -> Status;
 type OfState = unsafe extern "C" fn(Instance, *mut *mut c_void) -> Status;
 
@@ -144,11 +147,11 @@ impl Unit {
                 let resources = text(&uri(&opening.resources))?;
                 // Exporters of FMI 2.0 report the causes of errors with logging only; the last messages are kept.
                 let logs = 1;
-                // SAFETY: types and life times of the standard; 1 is co-simulation.
+                // SAFETY: types and life times of the standard; 0 is model exchange, 1 co-simulation.
                 unsafe {
                     instantiate(
                         name.as_ptr(),
-                        1,
+                        c_int::from(opening.exchange.is_none()),
                         token.as_ptr(),
                         resources.as_ptr(),
                         &raw const *callbacks,
@@ -157,8 +160,23 @@ impl Unit {
                     )
                 }
             }
+            Standard::Fmi3 if opening.exchange.is_some() => {
+                type Instantiate = unsafe extern "C" fn(
+                    *const c_char,
+                    *const c_char,
+                    *const c_char,
+                    bool,
+                    bool,
+                    *mut c_void,
+                    Log,
+                ) -> Instance;
+                let instantiate: Instantiate = symbol(&library, "fmi3InstantiateModelExchange")?;
+                let resources = text(&format!("{}/", opening.resources))?;
+                let [name, token, resources] = [&name, &token, &resources].map(|own| own.as_ptr());
+                // SAFETY: types and life times of the standard.
+                unsafe { instantiate(name, token, resources, false, false, null_mut(), log3) }
+            }
             Standard::Fmi3 => {
-                type Log = extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
                 type Instantiate = unsafe extern "C" fn(
                     *const c_char,
                     *const c_char,
@@ -202,6 +220,7 @@ impl Unit {
             standard: opening.standard,
             instance,
             may_terminate: false,
+            has_discarded: false,
             _callbacks: callbacks,
         })
     }
@@ -229,6 +248,7 @@ impl Unit {
             _ => "an unknown status",
         };
         self.may_terminate &= status == 2;
+        self.has_discarded = status == 2;
         Err(format!("`{}{name}` returned {word}", self.prefix()))
     }
 
@@ -412,6 +432,193 @@ impl Unit {
                 Ok(())
             }
         }
+    }
+
+    /// Whether the last failure was only a discarded point.
+    pub(crate) fn take_discarded(&mut self) -> bool {
+        std::mem::take(&mut self.has_discarded)
+    }
+
+    /// Sets time [s] and continuous states.
+    pub(crate) fn set_point(&mut self, time: f64, states: &[f64]) -> Result<(), String> {
+        let name = "SetTime";
+        let function: unsafe extern "C" fn(Instance, f64) -> Status = self.function(name)?;
+        // SAFETY: types of the standard.
+        let status = unsafe { function(self.instance, time) };
+        self.check(status, name)?;
+        if states.is_empty() {
+            return Ok(());
+        }
+        let name = "SetContinuousStates";
+        let function: unsafe extern "C" fn(Instance, *const f64, usize) -> Status = self.function(name)?;
+        // SAFETY: the pointer is to as many numbers as declared.
+        let status = unsafe { function(self.instance, states.as_ptr(), states.len()) };
+        self.check(status, name)
+    }
+
+    /// Calls a function that returns this number of values.
+    fn vector(&mut self, name: &str, count: usize) -> Result<Vec<f64>, String> {
+        let mut values = vec![0.0; count];
+        if count > 0 {
+            let function: unsafe extern "C" fn(Instance, *mut f64, usize) -> Status = self.function(name)?;
+            // SAFETY: the pointer is to as many numbers as declared.
+            let status = unsafe { function(self.instance, values.as_mut_ptr(), count) };
+            self.check(status, name)?;
+        }
+        Ok(values)
+    }
+
+    /// Derivatives of the continuous states.
+    pub(crate) fn derivatives(&mut self, count: usize) -> Result<Vec<f64>, String> {
+        let is_second = self.standard == Standard::Fmi2;
+        self.vector(if is_second { "GetDerivatives" } else { "GetContinuousStateDerivatives" }, count)
+    }
+
+    /// Event indicators.
+    pub(crate) fn indicators(&mut self, count: usize) -> Result<Vec<f64>, String> {
+        self.vector("GetEventIndicators", count)
+    }
+
+    /// Continuous states.
+    pub(crate) fn states(&mut self, count: usize) -> Result<Vec<f64>, String> {
+        self.vector("GetContinuousStates", count)
+    }
+
+    /// Derivatives of variables, by their value references, with respect to another one.
+    pub(crate) fn directional(&mut self, unknowns: &[u32], known: u32) -> Result<Vec<f64>, String> {
+        let name = "GetDirectionalDerivative";
+        let mut out = vec![0.0; unknowns.len()];
+        let (all, count, by, seed) = (unknowns.as_ptr(), unknowns.len(), &raw const known, 1.0);
+        let status = match self.standard {
+            Standard::Fmi2 => {
+                type Directional = unsafe extern "C" fn(
+                    Instance,
+                    *const u32,
+                    usize,
+                    *const u32,
+                    usize,
+                    *const f64,
+                    *mut f64,
+                ) -> Status;
+                let function: Directional = self.function(name)?;
+                // SAFETY: all pointers are to as many numbers as declared.
+                unsafe { function(self.instance, all, count, by, 1, &raw const seed, out.as_mut_ptr()) }
+            }
+            Standard::Fmi3 => {
+                type Directional = unsafe extern "C" fn(
+                    Instance,
+                    *const u32,
+                    usize,
+                    *const u32,
+                    usize,
+                    *const f64,
+                    usize,
+                    *mut f64,
+                    usize,
+                ) -> Status;
+                let function: Directional = self.function(name)?;
+                // SAFETY: all pointers are to as many numbers as declared.
+                unsafe {
+                    function(self.instance, all, count, by, 1, &raw const seed, 1, out.as_mut_ptr(), count)
+                }
+            }
+        };
+        self.check(status, name)?;
+        Ok(out)
+    }
+
+    /// Ends an accepted step. Returns whether the unit requests an event.
+    pub(crate) fn complete(&mut self, time: f64) -> Result<bool, String> {
+        let name = "CompletedIntegratorStep";
+        // Room for booleans of both versions of the standard: 4 bytes and one. Attempts that are rejected do not return to a state.
+        let (mut event, mut ended): (c_int, c_int) = (0, 0);
+        let status = match self.standard {
+            Standard::Fmi2 => {
+                let function: unsafe extern "C" fn(Instance, c_int, *mut c_int, *mut c_int) -> Status =
+                    self.function(name)?;
+                // SAFETY: types of the standard; the pointers live through the call.
+                unsafe { function(self.instance, 1, &raw mut event, &raw mut ended) }
+            }
+            Standard::Fmi3 => {
+                let function: unsafe extern "C" fn(Instance, bool, *mut c_int, *mut c_int) -> Status =
+                    self.function(name)?;
+                // SAFETY: a boolean is one byte, for which there is room; the pointers live through the call.
+                unsafe { function(self.instance, true, &raw mut event, &raw mut ended) }
+            }
+        };
+        self.check(status, name)?;
+        if ended == 0 { Ok(event != 0) } else { Err(format!("it ended the simulation at t = {time} s")) }
+    }
+
+    /// Executes an event, or the one that ends the initialisation if it `is_first`. Returns the time of the next one [s].
+    pub(crate) fn event(&mut self, at: &Point, is_first: bool) -> Result<Option<f64>, String> {
+        if is_first {
+            self.exit_initialization()?;
+        } else {
+            self.call("EnterEventMode")?;
+        }
+        // Usual units need two passes.
+        for _ in 0..1000 {
+            let (is_needed, next) = self.update_discrete(at.time)?;
+            if !is_needed {
+                self.call("EnterContinuousTimeMode")?;
+                return Ok(next);
+            }
+        }
+        Err(format!("its discrete states at t = {} s change without end", at.time))
+    }
+
+    /// Updates discrete states. Returns whether it must be repeated, and the time of the next event [s].
+    fn update_discrete(&mut self, time: f64) -> Result<(bool, Option<f64>), String> {
+        #[derive(Default)]
+        #[repr(C)]
+        struct Info {
+            is_needed: c_int,
+            ended: c_int,
+            nominals: c_int,
+            states: c_int,
+            is_defined: c_int,
+            next: f64,
+        }
+        let mut info = Info::default();
+        let status = match self.standard {
+            Standard::Fmi2 => {
+                let function: unsafe extern "C" fn(Instance, *mut Info) -> Status =
+                    self.function("NewDiscreteStates")?;
+                // SAFETY: the structure of the standard, which lives through the call.
+                unsafe { function(self.instance, &raw mut info) }
+            }
+            Standard::Fmi3 => {
+                type Update = unsafe extern "C" fn(
+                    Instance,
+                    *mut c_int,
+                    *mut c_int,
+                    *mut c_int,
+                    *mut c_int,
+                    *mut c_int,
+                    *mut f64,
+                ) -> Status;
+                let function: Update = self.function("UpdateDiscreteStates")?;
+                // SAFETY: a boolean is one byte, for which there is room; the pointers live through the call.
+                unsafe {
+                    function(
+                        self.instance,
+                        &raw mut info.is_needed,
+                        &raw mut info.ended,
+                        &raw mut info.nominals,
+                        &raw mut info.states,
+                        &raw mut info.is_defined,
+                        &raw mut info.next,
+                    )
+                }
+            }
+        };
+        let is_second = self.standard == Standard::Fmi2;
+        self.check(status, if is_second { "NewDiscreteStates" } else { "UpdateDiscreteStates" })?;
+        if info.ended != 0 {
+            return Err(format!("it ended the simulation at t = {time} s"));
+        }
+        Ok((info.is_needed != 0, (info.is_defined != 0).then_some(info.next)))
     }
 
     /// Applies `act` to a state, which is freed afterwards.

@@ -5,7 +5,9 @@ use std::io;
 use serde::{Deserialize, Serialize};
 
 use crate::ffi::{Unit, logged};
-use crate::messages::{Answer, Opening, Reply, Request, receive, send};
+use crate::messages::{
+    Answer, Exchange, Opening, Point, Reply, Request, Variable, VariableType, receive, send,
+};
 
 /// A unit with what is known of its run.
 struct Hosted {
@@ -62,8 +64,18 @@ fn handle(hosted: &mut Option<Hosted>, request: Request, version: &str) -> Resul
         Request::Begin(_) if own.has_begun => Err("the unit has left its start".to_owned()),
         Request::Begin(inputs) => {
             own.set_start(inputs)?;
-            Ok(Answer::Values(own.unit.get(&own.opening.outputs)?))
+            let states = own.opening.exchange.as_ref().map(|exchange| reals(&exchange.states));
+            Ok(Answer::Values(own.unit.get(&states.unwrap_or_else(|| own.opening.outputs.clone()))?))
         }
+        Request::Evaluate { group, time, arguments, differentiates } => {
+            let evaluated = own.evaluate((group, time), &arguments, differentiates);
+            own.or_discarded(evaluated)
+        }
+        Request::Complete(at) => {
+            let completed = own.set_all(&at).and_then(|()| own.unit.complete(at.time));
+            Ok(Answer::Completed(completed?))
+        }
+        Request::Event(at) => own.event(&at),
         Request::Advance { from, step, inputs } => {
             own.begin()?;
             own.unit.set(&own.opening.inputs, &inputs)?;
@@ -106,7 +118,116 @@ enum Saved {
     State(String, Vec<u8>),
 }
 
+/// Value reference of a value of a group: an output, or the derivative of a state.
+fn reference(exchange: &Exchange, outputs: &[Variable], row: usize) -> u32 {
+    outputs.get(row).map_or_else(|| exchange.derivatives[row - outputs.len()], |own| own.reference)
+}
+
+/// Real variables of value references.
+fn reals(references: &[u32]) -> Vec<Variable> {
+    references.iter().map(|&reference| Variable { reference, holds: VariableType::Real }).collect()
+}
+
 impl Hosted {
+    /// Sets time, states and inputs.
+    fn set_all(&mut self, at: &Point) -> Result<(), String> {
+        if self.has_begun {
+            self.unit.set_point(at.time, &at.states)?;
+        }
+        self.unit.set(&self.opening.inputs, &at.inputs)
+    }
+
+    /// The answer, also if the unit has discarded the point.
+    fn or_discarded(&mut self, answer: Result<Answer, String>) -> Result<Answer, String> {
+        let has_discarded = self.unit.take_discarded();
+        match answer {
+            Err(error) if has_discarded => Ok(Answer::Discarded(error)),
+            other => other,
+        }
+    }
+
+    /// Executes an event, or ends the initialisation.
+    fn event(&mut self, at: &Point) -> Result<Answer, String> {
+        self.set_all(at)?;
+        let next = self.unit.event(at, !self.has_begun)?;
+        self.has_begun = true;
+        Ok(Answer::Event(self.unit.states(at.states.len())?, next))
+    }
+
+    /// Evaluates a group.
+    fn evaluate(
+        &mut self,
+        (group, time): (usize, f64),
+        arguments: &[f64],
+        differentiates: bool,
+    ) -> Result<Answer, String> {
+        let exchange = self.opening.exchange.clone().unwrap_or_default();
+        let group = exchange.groups.get(group).ok_or("the unit has no such equations")?;
+        let (states, inputs) = arguments.split_at(exchange.states.len().min(arguments.len()));
+        let variables: Vec<Variable> = group.inputs.iter().map(|&input| self.opening.inputs[input]).collect();
+        let outputs: Vec<Variable> = group.outputs.iter().map(|&own| self.opening.outputs[own]).collect();
+        let has_derivatives = group.has_derivatives && self.has_begun;
+        let values_at = |own: &mut Self, states: &[f64], inputs: &[f64]| {
+            if own.has_begun {
+                own.unit.set_point(time, states)?;
+            }
+            own.unit.set(&variables, inputs)?;
+            let mut values = own.unit.get(&outputs)?;
+            if has_derivatives {
+                values.extend(own.unit.derivatives(exchange.states.len())?);
+                values.extend(own.unit.indicators(exchange.indicators)?);
+            } else if group.has_derivatives {
+                // Before the end of the initialisation there are none.
+                values.resize(values.len() + exchange.states.len() + exchange.indicators, 0.0);
+            }
+            Ok::<_, String>(values)
+        };
+        let values = values_at(self, states, inputs)?;
+        if !differentiates {
+            return Ok(Answer::Evaluated { values, derivatives: Vec::new() });
+        }
+        let mut derivatives = vec![0.0; values.len() * arguments.len()];
+        let rows = group.continuous.iter().copied();
+        let of_states = outputs.len()..outputs.len() + exchange.states.len();
+        let rows: Vec<usize> = rows.chain(of_states.filter(|_| has_derivatives)).collect();
+        let mut set =
+            |row: usize, column: usize, value: f64| derivatives[row * arguments.len() + column] = value;
+        if group.differentiates {
+            // An output that is a state is no unknown of the structure.
+            let state_of = |row: &usize| {
+                let own = outputs.get(*row)?.reference;
+                exchange.states.iter().position(|state| *state == own)
+            };
+            for (&row, state) in rows.iter().filter_map(|row| Some((row, state_of(row)?))) {
+                set(row, state, 1.0);
+            }
+            let rows: Vec<usize> = rows.into_iter().filter(|row| state_of(row).is_none()).collect();
+            let unknowns: Vec<u32> = rows.iter().map(|&row| reference(&exchange, &outputs, row)).collect();
+            let knowns = exchange.states.iter().copied().chain(variables.iter().map(|own| own.reference));
+            for (column, known) in knowns.enumerate().filter(|_| !unknowns.is_empty()) {
+                let found = self.unit.directional(&unknowns, known)?;
+                rows.iter().zip(found).for_each(|(&row, value)| set(row, column, value));
+            }
+            return Ok(Answer::Evaluated { values, derivatives });
+        }
+        let nominals = exchange.nominals[..states.len()].iter().copied();
+        let nominals =
+            nominals.chain(group.inputs.iter().map(|&input| exchange.nominals[states.len() + input]));
+        for (column, nominal) in nominals.enumerate() {
+            let mut beside = arguments.to_vec();
+            // A forward difference, whose increment balances curvature and round-off.
+            beside[column] += f64::EPSILON.sqrt() * arguments[column].abs().max(nominal);
+            let step = beside[column] - arguments[column];
+            let (states, inputs) = beside.split_at(states.len());
+            let found = values_at(self, states, inputs)?;
+            for &row in &rows {
+                set(row, column, (found[row] - values[row]) / step);
+            }
+        }
+        values_at(self, states, inputs)?;
+        Ok(Answer::Evaluated { values, derivatives })
+    }
+
     /// Loads a unit and begins its initialisation.
     fn open(opening: Opening) -> Result<Self, String> {
         let mut unit = Unit::load(&opening)?;
@@ -125,10 +246,16 @@ impl Hosted {
 
     /// Ends the initialisation.
     fn begin(&mut self) -> Result<(), String> {
-        if !self.has_begun {
-            self.unit.exit_initialization()?;
-            self.has_begun = true;
+        if self.has_begun {
+            return Ok(());
         }
+        if self.opening.exchange.is_some() {
+            let point = Point { time: self.opening.start, states: Vec::new(), inputs: self.start.clone() };
+            self.unit.event(&point, true)?;
+        } else {
+            self.unit.exit_initialization()?;
+        }
+        self.has_begun = true;
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! Functional mock-up units (FMI 2.0 and 3.0, co-simulation) of other programs. A unit is loaded by a process of its own,
+//! Functional mock-up units (FMI 2.0 and 3.0) of other programs. A unit is loaded by a process of its own,
 //! [`serve`], so that a unit that crashes does not end the simulation; [`Request`] and [`Reply`] are the messages between them.
 
 mod ffi;
@@ -6,4 +6,6 @@ mod host;
 mod messages;
 
 pub use host::serve;
-pub use messages::{Answer, Opening, Reply, Request, Standard, Variable, VariableType, receive, send};
+pub use messages::{
+    Answer, Exchange, Group, Opening, Point, Reply, Request, Standard, Variable, VariableType, receive, send,
+};

@@ -59,6 +59,40 @@ pub struct Opening {
     pub outputs: Vec<Variable>,
     /// Whether the state of the unit can be stored.
     pub saves: bool,
+    /// For model exchange.
+    pub exchange: Option<Exchange>,
+}
+
+/// Equations of a unit for model exchange.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Exchange {
+    /// Value references of the states.
+    pub states: Vec<u32>,
+    /// Value references of their derivatives.
+    pub derivatives: Vec<u32>,
+    /// Number of event indicators.
+    pub indicators: usize,
+    /// Nominal values of the states, then of the inputs: increments for differences.
+    pub nominals: Vec<f64>,
+    /// Whether the unit must be notified of accepted steps.
+    pub completes: bool,
+    /// Values that are evaluated at once.
+    pub groups: Vec<Group>,
+}
+
+/// Values of a unit that depend on all states and the same inputs: outputs, then derivatives of states, then event indicators.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Group {
+    /// Indices of the inputs.
+    pub inputs: Vec<usize>,
+    /// Indices of the outputs.
+    pub outputs: Vec<usize>,
+    /// Outputs, counted in the group, that are continuous; others have no derivatives.
+    pub continuous: Vec<usize>,
+    /// Whether derivatives of states and event indicators are in the group.
+    pub has_derivatives: bool,
+    /// Whether the unit provides directional derivatives of all of them.
+    pub differentiates: bool,
 }
 
 /// A request to the process of a unit.
@@ -77,10 +111,36 @@ pub enum Request {
         /// Values of the inputs.
         inputs: Vec<f64>,
     },
+    /// Evaluates a group at a time [s], with all states and the inputs of the group.
+    Evaluate {
+        /// Index of the group.
+        group: usize,
+        /// Time [s].
+        time: f64,
+        /// States, then inputs.
+        arguments: Vec<f64>,
+        /// Whether derivatives with respect to them are required.
+        differentiates: bool,
+    },
+    /// Notifies the unit of an accepted step that ends here.
+    Complete(Point),
+    /// Executes an event; the first one ends the initialisation.
+    Event(Point),
     /// Returns the state.
     Save,
     /// Sets the state.
     Restore(Vec<u8>),
+}
+
+/// Time, states and inputs of a unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Time [s].
+    pub time: f64,
+    /// States.
+    pub states: Vec<f64>,
+    /// Inputs.
+    pub inputs: Vec<f64>,
 }
 
 /// What a request has resulted in.
@@ -92,6 +152,19 @@ pub enum Answer {
     Values(Vec<f64>),
     /// The state.
     State(Vec<u8>),
+    /// Values of a group, and their derivatives value by value.
+    Evaluated {
+        /// The values.
+        values: Vec<f64>,
+        /// Derivatives, empty if they were not required.
+        derivatives: Vec<f64>,
+    },
+    /// The unit discards the point, for this reason.
+    Discarded(String),
+    /// Whether the unit requests an event after a step.
+    Completed(bool),
+    /// States after an event, and the time of the next event that is known in advance [s].
+    Event(Vec<f64>, Option<f64>),
 }
 
 /// The answer to a request, or why there is none, and messages of the unit.

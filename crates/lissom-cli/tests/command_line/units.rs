@@ -10,9 +10,12 @@ use lissom::Record;
 use super::support::{Ended, Folder, Run, lissom, wait_for};
 
 /// The shared library of the units.
-static LIBRARY: LazyLock<Vec<u8>> = LazyLock::new(|| {
-    let folder = Folder::new("unit-library");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/command_line/units/unit.rs.txt");
+static LIBRARY: LazyLock<Vec<u8>> = LazyLock::new(|| library("unit.rs.txt"));
+
+/// Compiles a library of units.
+pub(super) fn library(source: &str) -> Vec<u8> {
+    let folder = Folder::new(source);
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/command_line/units").join(source);
     let target = folder.path().join("unit");
     let compiler = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let mut command = std::process::Command::new(compiler);
@@ -23,7 +26,7 @@ static LIBRARY: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let compiled = command.output().unwrap();
     assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
     std::fs::read(target).unwrap()
-});
+}
 
 /// An archive of files without compression.
 fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
@@ -91,8 +94,13 @@ fn platform(version: u8) -> String {
 
 /// Writes a unit.
 fn write_unit(at: &Path, version: u8, description: &str) {
-    let library = format!("binaries/{}/pi{}", platform(version), std::env::consts::DLL_SUFFIX);
-    let files = [("modelDescription.xml", description.as_bytes()), (&*library, &LIBRARY)];
+    write_unit_with(at, version, description, &LIBRARY);
+}
+
+/// Writes a unit with a library.
+pub(super) fn write_unit_with(at: &Path, version: u8, description: &str, library: &[u8]) {
+    let name = format!("binaries/{}/pi{}", platform(version), std::env::consts::DLL_SUFFIX);
+    let files = [("modelDescription.xml", description.as_bytes()), (&*name, library)];
     std::fs::write(at, zip(&files)).unwrap();
 }
 
@@ -146,12 +154,12 @@ x = { value = "x + 5e-3*3*u.last", sample = 5e-3, start = -7.5e-3 }
 y = { value = "2*u.last + x", sample = 5e-3 }
 "#;
 
-fn run(folder: &Folder, model: &str, more: &[&str]) -> Ended {
+pub(super) fn run(folder: &Folder, model: &str, more: &[&str]) -> Ended {
     folder.write("model.toml", model);
     lissom(&[&["run", "model.toml", "--quiet", "--no-plots", "--out", "out"], more].concat(), folder.path())
 }
 
-fn column(folder: &Folder, output: &str, component: &str) -> Vec<f64> {
+pub(super) fn column(folder: &Folder, output: &str, component: &str) -> Vec<f64> {
     let table = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
     Record::from_csv(&table).unwrap().column(output, component).unwrap().to_vec()
 }
@@ -296,9 +304,9 @@ fn mistakes_in_a_unit_are_underlined() {
             "exchange.fmu",
             &zip(&[(
                 "modelDescription.xml",
-                description(3, "").replace("CoSimulation", "ModelExchange").as_bytes(),
+                description(3, "").replace("CoSimulation", "ScheduledExecution").as_bytes(),
             )]),
-            "supports model exchange only",
+            "supports scheduled execution only",
         ),
         (
             "bare.fmu",
@@ -366,7 +374,12 @@ fn a_killed_run_continues_with_the_state_of_its_unit() {
     let arguments = ["run", "model.toml", "--no-plots", "--out", "out", "--checkpoint-every", "50steps"];
     let mut started = Run::start(&arguments, folder.path());
     let checkpoint = folder.path().join("out/checkpoint.lissom");
-    wait_for(|| checkpoint.is_file());
+    // The first checkpoint is that of the start.
+    let rows = || {
+        std::fs::read_to_string(folder.path().join("out/history.csv"))
+            .map_or(0, |table| table.lines().count())
+    };
+    wait_for(|| checkpoint.is_file() && rows() > 500);
     started.0.kill().unwrap();
     drop(started);
     assert!(checkpoint.is_file(), "the run was not killed before its end");

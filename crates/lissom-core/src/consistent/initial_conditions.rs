@@ -653,7 +653,7 @@ pub(super) fn without_accelerations(layout: &Layout, state: &State) -> Kinematic
 }
 
 /// The state extrapolated along its motion over a short time [s], to second order.
-fn moved(state: &State, time: f64) -> State {
+pub(crate) fn moved(state: &State, time: f64) -> State {
     let mut moved = state.clone();
     moved.kinematics.time += time;
     for node in &mut moved.kinematics.nodes {

@@ -581,6 +581,27 @@ impl EventDetector {
         indices.iter().any(|&k| self.values[k].levels.is_some())
     }
 
+    /// Whether a value is on the branch of function `k`.
+    pub(crate) fn is_beyond(&self, k: usize, value: f64) -> bool {
+        self.known.sides[k] * value > 0.0
+    }
+
+    /// Determines the branches of functions anew after they may have jumped at a state: those of their values, or where these are zero
+    /// up to round-off those `ahead`, shortly after the state. Until it is on its branch a value has no sign.
+    pub(crate) fn restart(&mut self, system: &System, [state, ahead]: [&State; 2], indices: &[usize]) {
+        values_at(system, ahead, self.has_switches, &mut self.values);
+        let ahead = self.values.clone();
+        values_at(system, state, self.has_switches, &mut self.values);
+        for &k in indices {
+            let value = self.values[k].number;
+            let is_zero = value.abs() <= NOISE * self.known.largest[k];
+            let towards = if is_zero { ahead[k].number - value } else { value };
+            self.known.sides[k] = if towards == 0.0 { 0.0 } else { towards.signum() };
+            self.known.remaining[k] = if is_zero { value.abs() } else { 0.0 };
+        }
+        self.note(self.of_switches(system, &state.kinematics), indices);
+    }
+
     /// Updates the branches of events after inputs have changed at the state; no event occurs.
     pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
         values_at(system, state, self.has_switches, &mut self.values);

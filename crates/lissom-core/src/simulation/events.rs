@@ -109,6 +109,7 @@ impl Simulation {
             self.stops.history.add_break(Break::Slope);
             self.report_laws_that_end_steps();
         }
+        self.note_indicators(&happened);
         self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
         if happened.is_empty() {
             return self.check_sliding();

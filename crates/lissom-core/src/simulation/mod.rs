@@ -10,6 +10,7 @@ pub mod dynamics;
 pub mod equilibrium;
 mod event_detector;
 mod events;
+mod exchange;
 mod held_values;
 pub mod joint_space;
 mod laws;
@@ -29,6 +30,8 @@ mod units;
 pub use crate::system::Need;
 pub(crate) use arc::ArcControl;
 pub(crate) use event_detector::{EventDetector, EventState};
+pub use exchange::ExchangedUnits;
+pub(crate) use exchange::SavedEquations;
 pub use held_values::InputError;
 pub use newton_trial::NewtonTrial;
 pub use recovery::{Recovered, Recovery};
@@ -84,6 +87,8 @@ pub struct Simulation {
     pub(crate) accumulation: Accumulation,
     /// Models of other programs.
     pub(crate) units: units::AttachedUnits,
+    /// Models of other programs whose equations are part of the system.
+    pub(crate) exchanged: ExchangedUnits,
     pub(crate) monitors: Monitors,
     /// Warnings about the motion up to the state.
     pub(crate) warnings: Vec<Warning>,

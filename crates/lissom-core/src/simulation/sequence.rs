@@ -96,6 +96,7 @@ impl Simulation {
     fn advance(&mut self, limit: f64, progress: &mut Progress<'_>) -> Result<(), StepError> {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
+        self.check_units()?;
         self.trim_signals();
         let size = self.control.by_error().unwrap_or(longest).min(limit - now);
         self.stops.look_ahead(
@@ -109,6 +110,7 @@ impl Simulation {
         // The size of the first part is exact.
         let mut rest = planned.unwrap_or(limit - self.now());
         loop {
+            self.execute_unit_events()?;
             let mut stop = self.next_stop(rest, planned.is_none().then_some(limit));
             let touch = self.integrator.first_touch(&self.system, &self.state, stop.distance);
             if let Some(distance) = touch {
@@ -141,7 +143,8 @@ impl Simulation {
         let (now, longest) = (self.now(), self.control.longest());
         let mut stop = Stop { distance: rest, clock: limit, crossing: None, is_last: true };
         let windows = Some(self.end_of_windows()).filter(|end| end.is_finite());
-        let nearest = self.next_sample().into_iter().chain(windows).reduce(f64::min);
+        let known = windows.into_iter().chain(self.exchanged.next());
+        let nearest = self.next_sample().into_iter().chain(known).reduce(f64::min);
         let nearest = nearest.filter(|instant| instant - now < rest - instants::tolerance(now, longest));
         if let Some(instant) = nearest {
             (stop.distance, stop.clock, stop.is_last) = (instant - now, limit.and(Some(instant)), false);
@@ -189,6 +192,7 @@ impl Simulation {
             self.integrator.has_last_step = true;
             self.report_unresolved_laws();
             let is_event = located.is_some();
+            self.complete_units()?;
             self.after_events(located.as_ref(), self.control.longest())?;
             if self.events.known.has_switched {
                 self.integrator.work.forget_predictions();
@@ -210,6 +214,9 @@ impl Simulation {
                 Ok(Verdict::Shorten) => None,
                 Err(error) => Some(error),
             };
+            if let Some(fault) = error.is_some().then(|| self.unit_fault()).flatten() {
+                return Err(fault);
+            }
             if progress.watch.is_cancelled() {
                 return Err(StepError::Interrupted { time: self.state.kinematics.time });
             }
@@ -224,6 +231,7 @@ impl Simulation {
             };
             if !(may_help && self.control.shorten(size, has_solution)) {
                 let error = progress.failure.take().unwrap_or_else(|| self.too_inaccurate(size));
+                let error = self.take_discarded().unwrap_or(error);
                 return Err(self.with_cause(error, self.control.has_tried_shortest()));
             }
             progress.report.rejected += 1;

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use serde::{Deserialize, Serialize};
 
-use super::EventState;
 use super::laws::Magnitudes;
+use super::{EventState, SavedEquations};
 use crate::diagnostics::diagnostics;
 use crate::energy_balance::EnergyBalance;
 use crate::errors::Warning;
@@ -24,7 +24,7 @@ use crate::simulation::snapshot_parts::Learned;
 use crate::system::{State, Touch};
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 28;
+const VERSION: u32 = 29;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +52,8 @@ pub struct Snapshot {
     history: SignalHistory,
     /// Samples that units have reached, and their states.
     units: Vec<(u64, Option<Vec<u8>>)>,
+    /// Events of units with equations, and their states.
+    exchanged: Vec<SavedEquations>,
 }
 
 /// State of the integrator: the tangent in use and the memory of the scheme.
@@ -238,6 +240,7 @@ impl Simulation {
             learned: self.integrator.work.learned(),
             history: self.stops.history.clone(),
             units: self.units.save(),
+            exchanged: self.exchanged.save(),
         }
     }
 
@@ -257,7 +260,7 @@ impl Simulation {
                 found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
             });
         }
-        self.restore_units(&from.units)?;
+        self.restore_units(&from.units, &from.exchanged)?;
         let is_read = self.integrator.work.restore(&self.system, &from.learned).is_ok()
             && self.control.restore(&from.control)
             && self.monitors.restore(&from.monitors);

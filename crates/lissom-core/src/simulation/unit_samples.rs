@@ -2,7 +2,7 @@
 //! outputs are held values, which change before the signals of that instant are sampled.
 
 use super::units::{AttachedUnit, Unit, UnitFault, check_finite};
-use super::{Simulation, SnapshotError};
+use super::{SavedEquations, Simulation, SnapshotError};
 use crate::errors::{InitialError, StepError};
 use crate::instants;
 use crate::kinematics::Kinematics;
@@ -106,23 +106,39 @@ impl Simulation {
     /// # Errors
     /// The first unit that cannot return its state.
     pub fn check_snapshots(&self) -> Result<(), SnapshotError> {
-        self.check_saved(&self.units.save())
+        self.check_saved(&self.units.save(), &self.exchanged.save())
     }
 
-    fn check_saved(&self, saved: &[(u64, Option<Vec<u8>>)]) -> Result<(), SnapshotError> {
-        let named = self.system.signals().units.iter().zip(saved);
-        let mut unsaved = named.filter(|(_, (_, state))| state.is_none());
-        unsaved.next().map_or(Ok(()), |(ports, _)| Err(SnapshotError::Unit { unit: ports.name.clone() }))
+    /// Names of all units: of those with samples, then of those with equations.
+    fn unit_names(&self) -> impl Iterator<Item = &str> {
+        let graph = self.system.signals();
+        let exchanged = graph.exchanged.iter().map(|ports| ports.slot.name());
+        graph.units.iter().map(|ports| ports.name.as_str()).chain(exchanged)
+    }
+
+    fn check_saved(
+        &self,
+        saved: &[(u64, Option<Vec<u8>>)],
+        exchanged: &[SavedEquations],
+    ) -> Result<(), SnapshotError> {
+        let states = saved.iter().map(|(_, state)| state).chain(exchanged.iter().map(|(_, state)| state));
+        let mut unsaved = self.unit_names().zip(states).filter(|(_, state)| state.is_none());
+        unsaved.next().map_or(Ok(()), |(name, _)| Err(SnapshotError::Unit { unit: name.to_owned() }))
     }
 
     /// Returns the units to saved states.
-    pub(super) fn restore_units(&mut self, saved: &[(u64, Option<Vec<u8>>)]) -> Result<(), SnapshotError> {
+    pub(super) fn restore_units(
+        &mut self,
+        saved: &[(u64, Option<Vec<u8>>)],
+        exchanged: &[SavedEquations],
+    ) -> Result<(), SnapshotError> {
         let ports = &self.system.signals().units;
-        if self.units.units.len() != saved.len() {
-            let unit = ports.first().map(|ports| ports.name.clone()).unwrap_or_default();
+        if (self.units.units.len(), self.exchanged.count()) != (saved.len(), exchanged.len()) {
+            let unit = self.unit_names().next().unwrap_or_default().to_owned();
             return Err(SnapshotError::Unit { unit });
         }
-        self.check_saved(saved)?;
+        self.check_saved(saved, exchanged)?;
+        self.exchanged.restore(exchanged)?;
         for ((own, ports), (samples, state)) in self.units.units.iter_mut().zip(ports).zip(saved) {
             let state = state.as_deref().unwrap_or_default();
             own.unit.restore(state).map_err(|fault| SnapshotError::UnitRestore {

@@ -1,13 +1,6 @@
 //! Units: models of other programs that are attached to a simulation.
 
-/// Why a unit cannot continue.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnitFault {
-    /// What went wrong.
-    pub cause: String,
-    /// What to try.
-    pub remedy: String,
-}
+pub use crate::signals::exchange::UnitFault;
 
 /// A model of another program.
 pub trait Unit: Send + Sync {

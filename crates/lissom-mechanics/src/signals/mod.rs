@@ -13,6 +13,7 @@
 pub mod coordinate;
 pub mod delay;
 pub mod event;
+pub mod exchange;
 pub mod failure;
 pub mod frame_quantity;
 pub mod measurement;
@@ -171,8 +172,10 @@ pub struct Graph {
     pub held: Vec<(String, f64)>,
     /// Held values that are quantities of the state at samples.
     pub readings: Vec<DiscreteValueId>,
-    /// Units of other programs.
+    /// Units of other programs that are advanced from sample to sample.
     pub units: Vec<UnitPorts>,
+    /// Units of other programs with equations.
+    pub exchanged: Vec<exchange::ExchangedUnit>,
     /// Delayed signals.
     pub delays: Vec<delay::Delay>,
     /// Events.

@@ -75,7 +75,7 @@ pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, Loca
 pub(crate) use shells::area_arguments;
 pub use shells::{AreaLoad, Layer, Shell};
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
-pub use units::UnitEntry;
+pub use units::{ExchangeGroup, ExchangePorts, UnitEntry, UnitMode};
 
 /// A model as it was written, checked.
 ///
@@ -145,7 +145,7 @@ pub struct Document {
     pub states: Vec<StateEntry>,
     /// Actions when expressions cross zero.
     pub events: Vec<EventEntry>,
-    /// Co-simulation units of other programs.
+    /// Units of other programs.
     pub units: Vec<UnitEntry>,
     /// Hydraulic parts; their equations are among the states, signals, loads and springs.
     pub hydraulics: Vec<HydraulicEntry>,

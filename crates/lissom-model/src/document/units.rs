@@ -1,5 +1,6 @@
-//! Co-simulation units of other programs.
+//! Units of other programs, which are advanced from sample to sample, or whose equations belong to those of the model.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::entries::each;
@@ -11,7 +12,7 @@ use crate::reading::reader::Reader;
 use crate::text::report::{Located, Span};
 use crate::text::{Node, Value};
 
-/// A unit of another program, which is advanced from sample to sample.
+/// A unit of another program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitEntry {
     /// Name.
@@ -24,10 +25,48 @@ pub struct UnitEntry {
     pub outputs: Vec<(String, Located<String>)>,
     /// Start values of variables.
     pub parameters: Vec<(Located<String>, f64)>,
-    /// Time from sample to sample [s].
-    pub sample: f64,
+    /// Time from sample to sample [s], for co-simulation.
+    pub sample: Option<Located<f64>>,
+    /// How it is simulated; none for what the unit supports.
+    pub mode: Option<UnitMode>,
+    /// Its equations, for model exchange; none until the unit is read.
+    pub exchange: Option<ExchangePorts>,
     /// Longest real time of a call of the unit [s].
     pub timeout: f64,
+}
+
+/// How a unit is simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnitMode {
+    /// It takes its own steps from sample to sample.
+    CoSimulation,
+    /// Its equations are solved with those of the model.
+    ModelExchange,
+}
+
+/// Words of the modes.
+const MODES: [&str; 2] = ["co_simulation", "model_exchange"];
+
+/// Equations of a unit for model exchange.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExchangePorts {
+    /// Names of the states, with their usual magnitudes.
+    pub states: Vec<(String, f64)>,
+    /// Number of event indicators.
+    pub indicators: usize,
+    /// Values that depend on the same inputs.
+    pub groups: Vec<ExchangeGroup>,
+}
+
+/// Values of a unit that depend on the same inputs: outputs, then derivatives of states, then event indicators.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ExchangeGroup {
+    /// Indices of the inputs in the entry.
+    pub inputs: Vec<usize>,
+    /// Indices of the outputs in the entry.
+    pub outputs: Vec<usize>,
+    /// Whether derivatives of states and event indicators are in the group.
+    pub has_derivatives: bool,
 }
 
 impl UnitEntry {
@@ -35,23 +74,30 @@ impl UnitEntry {
     pub fn output_name(&self, output: &str) -> String {
         format!("{}.{output}", self.name.value)
     }
+
+    /// The group of an output, for model exchange.
+    pub(crate) fn group_of(&self, output: &str) -> Option<usize> {
+        let index = self.outputs.iter().position(|(own, _)| own == output)?;
+        self.exchange.as_ref()?.groups.iter().position(|group| group.outputs.contains(&index))
+    }
 }
 
 /// Keys of a unit.
 pub(super) fn keys() -> Vec<Key> {
     vec![
         required("file", Shape::Text, "", "the unit, a file `.fmu`; path relative to this file"),
-        required(
+        optional(
             "sample",
             Shape::Positive,
             "s",
-            "time from sample to sample: the step of the unit, over which inputs and outputs are constant",
+            "for co-simulation, required: time from sample to sample, over which inputs and outputs are constant",
         ),
         unitless(
-            "inputs",
-            Shape::Table,
-            "input variables of the unit, with expressions of their values at samples",
+            "mode",
+            Shape::Choice(Cow::Borrowed(&MODES)),
+            "for units that support both: steps of its own, or equations solved with those of the model; default the first",
         ),
+        unitless("inputs", Shape::Table, "input variables of the unit, with expressions of their values"),
         unitless(
             "outputs",
             Shape::Table,
@@ -107,13 +153,19 @@ pub(super) fn units(context: &Context<'_>) -> Vec<UnitEntry> {
             let value = context.number(node, &format!("`parameters.{}` of unit `{name}`", variable.value))?;
             parameters.push((variable, value));
         }
+        let sample = if reader.has("sample") { Some(reader.number("sample")?) } else { None };
+        let mode = if reader.has("mode") { Some(reader.choice("mode")?.value) } else { None };
+        let mode =
+            mode.map(|word| if word == MODES[0] { UnitMode::CoSimulation } else { UnitMode::ModelExchange });
         Some(UnitEntry {
             name: Located::new(name.to_owned(), reader.name),
             file: path,
             inputs,
             outputs,
             parameters,
-            sample: reader.number("sample")?.value,
+            sample,
+            mode,
+            exchange: None,
             timeout: reader.number("timeout")?.value,
         })
     })

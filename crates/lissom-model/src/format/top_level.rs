@@ -100,7 +100,7 @@ pub(crate) static TOP: [Top; 30] = [
         "units",
         Holds::Entries,
         false,
-        "Co-simulation units (FMI) of other programs, advanced from sample to sample.",
+        "Units (FMI) of other programs: advanced from sample to sample, or with equations that are solved with those of the model.",
     ),
     top("fluids", Holds::Entries, false, "Fluids of hydraulic parts."),
     top(

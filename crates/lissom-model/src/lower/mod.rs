@@ -8,6 +8,7 @@ mod delay;
 mod discrete_filter;
 mod distributed;
 mod elastic_solids;
+mod exchange;
 mod latches;
 mod local_loads;
 mod measurements;

@@ -1,7 +1,10 @@
 //! What expressions of signals name, while the model is lowered.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
+use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::signals::exchange::UnitSlot;
 use lissom_mechanics::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
 
 use crate::text::report::Span;
@@ -32,4 +35,23 @@ pub(super) struct SignalReferences {
     pub(super) readings: Vec<NamedComponent<DiscreteValueId>>,
     /// Outputs that are expressions and are being resolved, each named by the one before.
     pub(super) open_expressions: Vec<String>,
+    /// Units with equations.
+    pub(super) exchanged: BTreeMap<String, AddedUnit>,
+}
+
+/// A unit with equations, as far as it is added.
+#[derive(Clone)]
+pub(super) struct AddedUnit {
+    /// Where its running unit is attached.
+    pub(super) slot: Arc<UnitSlot>,
+    /// Its states.
+    pub(super) states: Vec<CoordinateId>,
+    /// The states as arguments of its values.
+    pub(super) arguments: Vec<Argument>,
+    /// Signals that are its inputs; none before they are added.
+    pub(super) inputs: Vec<Option<SignalId>>,
+    /// For each group its signals; none before they are added, and while they are.
+    pub(super) groups: Vec<Option<Vec<SignalId>>>,
+    /// Groups whose inputs are being added.
+    pub(super) open: Vec<usize>,
 }

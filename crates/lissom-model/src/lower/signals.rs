@@ -12,6 +12,7 @@ use lissom_system::Builder;
 
 use super::delay;
 use super::discrete_filter;
+use super::exchange;
 use super::measurements::{Fault, Measured, measure};
 use super::names::Names;
 use super::order::by_name;
@@ -37,6 +38,10 @@ pub(super) fn add(
         names.signals.insert(name.value.clone(), Argument::Held(held));
     }
     for unit in by_name(&document.units, |unit| &unit.name.value) {
+        if let Some(ports) = &unit.exchange {
+            exchange::add_states(builder, names, unit, ports);
+            continue;
+        }
         for (output, _) in &unit.outputs {
             let name = unit.output_name(output);
             let held = builder.add_reading(&name);
@@ -112,7 +117,12 @@ pub(super) fn add(
         }
     }
     for unit in by_name(&document.units, |unit| &unit.name.value) {
-        if let Err(problem) = add_unit(document, builder, names, unit) {
+        let added = if unit.exchange.is_some() {
+            exchange::add_unit(document, builder, names, unit)
+        } else {
+            add_unit(document, builder, names, unit)
+        };
+        if let Err(problem) = added {
             problems.push(problem);
         }
     }
@@ -131,13 +141,17 @@ fn add_unit(
     unit: &UnitEntry,
 ) -> Result<(), Problem> {
     let mut inputs = Vec::new();
+    let Some(period) = unit.sample.map(|sample| sample.value) else {
+        let message = format!("the unit `{}` lacks `sample`", unit.name.value);
+        return Err(Problem::error(unit.name.span, message).help("add `sample`, its step in seconds"));
+    };
     for (variable, expression) in &unit.inputs {
         let subject =
             Subject::new("unit", &unit.name.value).component(&format!("`inputs.{}`", variable.value));
         let reader = Reader { subject: &subject, expression, is_sampled: true, own_sample: None };
         let (signal, _) = formula(document, builder, names, &reader)?;
         let held = builder.add_held(&subject.to_string(), 0.0);
-        let sampling = Some(Sampling { held, period: unit.sample });
+        let sampling = Some(Sampling { held, period });
         builder
             .add_signal(Signal { sampling, ..signal })
             .map_err(|error| Problem::error(expression.span, error.to_string()))?;
@@ -149,7 +163,7 @@ fn add_unit(
     };
     builder.add_unit(UnitPorts {
         name: unit.name.value.clone(),
-        period: unit.sample,
+        period,
         inputs,
         outputs: unit.outputs.iter().filter_map(|(output, _)| held(output)).collect(),
         output_names: unit.outputs.iter().map(|(output, _)| output.clone()).collect(),
@@ -393,6 +407,10 @@ fn resolve(
         return Err(problem(message).help(help));
     }
     if let Some(unit) = document.units.iter().find(|unit| unit.name.value == owner) {
+        if let Some(group) = unit.group_of(component) {
+            exchange::add_group(document, builder, names, (unit, group))?;
+            return names.signals.get(&name.text).copied().ok_or_else(|| problem("it is unknown".to_owned()));
+        }
         let help = suggest::help(component, unit.outputs.iter().map(|(output, _)| output.as_str()));
         let help =
             help.unwrap_or_else(|| format!("add it to `outputs` of the unit: {component} = \"VARIABLE\""));
@@ -475,7 +493,12 @@ fn output_value(
     is_sampled: bool,
 ) -> Result<Argument, Option<Problem>> {
     match &output.source {
-        OutputSource::Signal(name) => names.signals.get(&name.value).copied().ok_or(None),
+        OutputSource::Signal(name) => {
+            if let Some(of_unit) = group_named(document, &name.value) {
+                exchange::add_group(document, builder, names, of_unit)?;
+            }
+            names.signals.get(&name.value).copied().ok_or(None)
+        }
         OutputSource::Expression(expression) => {
             let subject = Subject::new("output", &output.name.value);
             let reader = Reader { subject: &subject, expression, is_sampled, own_sample: None };
@@ -490,14 +513,30 @@ fn output_value(
     }
 }
 
-/// The signals that a name in an expression means: one, or those that an output of signals depends on.
+/// The unit with equations and the group of the output that a name means.
+fn group_named<'d>(document: &'d Document, name: &str) -> Option<(&'d UnitEntry, usize)> {
+    let (owner, output) = name.rsplit_once('.')?;
+    let unit = document.units.iter().find(|unit| unit.name.value == owner)?;
+    Some((unit, unit.group_of(output)?))
+}
+
+/// The signals that a name in an expression means: one, or those that an output of signals or of a unit depends on.
 pub(super) fn signals_named<'d>(
     document: &'d Document,
-    name: &str,
+    name: &'d str,
     path: &mut Vec<&'d str>,
 ) -> Vec<&'d SignalEntry> {
     if let Some(own) = document.signals.iter().find(|other| other.name.value == name) {
         return vec![own];
+    }
+    if let Some((unit, group)) = group_named(document, name).filter(|_| !path.contains(&name)) {
+        path.push(name);
+        let groups = unit.exchange.iter().map(|ports| &ports.groups[group]);
+        let inputs = groups.flat_map(|group| &group.inputs).map(|&input| &unit.inputs[input].1.value);
+        let arguments = inputs.flat_map(Formula::arguments);
+        let found = arguments.flat_map(|argument| signals_named(document, &argument.text, path)).collect();
+        path.pop();
+        return found;
     }
     let owner = name.rsplit_once('.').and_then(|(owner, _)| outputs_of_signals(document, owner));
     let Some(output) = owner.filter(|output| !path.contains(&output.name.value.as_str())) else {

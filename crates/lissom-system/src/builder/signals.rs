@@ -16,6 +16,7 @@ use lissom_mechanics::kinematics::{
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::delay::{Delay, Past, Piece, window_size};
 use lissom_mechanics::signals::event::Event;
+use lissom_mechanics::signals::exchange::ExchangedUnit;
 use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of::Position};
 use lissom_mechanics::signals::measurement::{Component, Measurement};
 use lissom_mechanics::signals::{
@@ -39,6 +40,16 @@ impl Builder {
     /// Adds a unit of another program; its outputs must have been added as readings.
     pub fn add_unit(&mut self, unit: UnitPorts) {
         self.graph.units.push(unit);
+    }
+
+    /// Adds a unit of another program with equations, after its states, inputs and events.
+    pub fn add_exchanged_unit(&mut self, unit: ExchangedUnit) {
+        self.graph.exchanged.push(unit);
+    }
+
+    /// Number of events.
+    pub fn event_count(&self) -> usize {
+        self.graph.events.len()
     }
 
     /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with

@@ -23,7 +23,7 @@ use lissom_core::instants;
 use lissom_core::settings::StepReport;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
-use lissom_core::simulation::{InputError, Simulation, UnitFault};
+use lissom_core::simulation::{ExchangedUnits, InputError, Simulation, UnitFault};
 use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::document::OutputKind;
@@ -149,7 +149,7 @@ impl Session {
         let began = Instant::now();
         let Lowered {
             system,
-            state,
+            mut state,
             settings,
             plan,
             channels,
@@ -162,15 +162,23 @@ impl Session {
         } = lowered;
         let origin = state.kinematics.time;
         let schedule = Schedule::new(plan, settings.step_size);
+        let failed = |unit: &str| {
+            let unit = unit.to_owned();
+            |UnitFault { cause, remedy }| InitialError::Unit { unit, cause, remedy }
+        };
+        let graph = system.signals();
+        let (sampled, exchanged) = units.split_at(graph.units.len().min(units.len()));
+        let begun = exchanged.iter().zip(&graph.exchanged);
+        let begun =
+            begun.map(|(unit, ports)| unit.start_equations(origin).map_err(failed(ports.slot.name())));
+        let begun = begun.collect::<Result<_, _>>()?;
+        // Initial accelerations follow from their states.
+        let exchanged = ExchangedUnits::begin(&system, &mut state.kinematics, begun)?;
         let mut simulation = Simulation::new(system, state, settings)?;
+        simulation.attach_exchanged(exchanged);
         simulation.accumulate(accumulated);
-        let begun = units.iter().zip(&simulation.system().signals().units).map(|(unit, ports)| {
-            unit.start(origin).map_err(|UnitFault { cause, remedy }| InitialError::Unit {
-                unit: ports.name.clone(),
-                cause,
-                remedy,
-            })
-        });
+        let begun = sampled.iter().zip(&simulation.system().signals().units);
+        let begun = begun.map(|(unit, ports)| unit.start(origin).map_err(failed(&ports.name)));
         let begun: Vec<_> = begun.collect::<Result<_, _>>()?;
         simulation.attach_units(begun)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];

@@ -50,7 +50,7 @@ pub struct Lowered {
     pub warnings: Vec<Warning>,
     /// Result of the assembly, if requested.
     pub assembly: Option<Assembly>,
-    /// Units of other programs, in the order of the graph of signals.
+    /// Units of other programs, in the order of the graph of signals: those with samples, then those with equations.
     pub units: Vec<ReadUnit>,
     /// Nodes that assemblies leave where they are.
     fixed: Vec<NodeId>,
@@ -121,6 +121,8 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
 }
 
 fn lower_of(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
+    let (document, read) = units::read(document)?;
+    let document = &*document;
     let rejected = |problem: Problem| document.report(vec![problem]);
     let mut built = build(document, locked)?;
     let (settings, plan) = settings(document).map_err(rejected)?;
@@ -145,7 +147,9 @@ fn lower_of(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     warnings.extend(immobile::immobile(document, &system, &state));
-    let units = units::read(document, system.signals().units.iter().map(|unit| unit.name.as_str()))?;
+    let graph = system.signals();
+    let exchanged = graph.exchanged.iter().map(|unit| unit.slot.name());
+    let units = units::in_order(&read, graph.units.iter().map(|unit| unit.name.as_str()).chain(exchanged));
     let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
     Ok(Lowered {
         system: Arc::new(system),

@@ -9,19 +9,38 @@ use crate::encodings::tags::too_deep;
 #[derive(Clone, Debug)]
 pub(super) struct Description {
     pub(super) standard: Standard,
-    /// Name of the shared library without its extension.
-    pub(super) library: String,
     /// Instantiation token, or GUID.
     pub(super) token: String,
+    pub(super) co_simulation: Option<Kind>,
+    pub(super) model_exchange: Option<Kind>,
+    pub(super) variables: Vec<Described>,
+    /// Outputs with the variables on which they depend; none if these are unknown.
+    pub(super) outputs: Vec<(usize, Option<Vec<usize>>)>,
+    /// Derivatives of continuous states, likewise.
+    pub(super) derivatives: Vec<(usize, Option<Vec<usize>>)>,
+    /// Number of event indicators.
+    pub(super) indicators: usize,
+}
+
+/// What a unit supports for co-simulation or model exchange.
+#[derive(Clone, Debug)]
+pub(super) struct Kind {
+    /// Name of the shared library without its extension.
+    pub(super) library: String,
     /// Whether its state can be stored.
     pub(super) saves: bool,
-    pub(super) variables: Vec<Described>,
+    /// Whether it provides directional derivatives.
+    pub(super) differentiates: bool,
+    /// Whether it must be notified of accepted steps.
+    pub(super) completes: bool,
 }
 
 /// A variable of a unit.
 #[derive(Clone, Debug)]
 pub(super) struct Described {
     pub(super) name: String,
+    /// Value reference.
+    pub(super) reference: u32,
     pub(super) causality: String,
     /// None for types that are no single numbers, such as texts and arrays.
     pub(super) variable: Option<Variable>,
@@ -30,6 +49,12 @@ pub(super) struct Described {
     pub(super) start: Option<String>,
     /// Whether its value at the start can be set.
     pub(super) is_settable: bool,
+    /// Whether it changes between events.
+    pub(super) is_continuous: bool,
+    /// Its usual magnitude.
+    pub(super) nominal: f64,
+    /// For a derivative: its state, by the index or the value reference, as the version of the standard defines.
+    pub(super) derivative: Option<u32>,
 }
 
 impl Description {
@@ -48,28 +73,75 @@ impl Description {
             _ => return Err(format!("it is of FMI {version:?}; versions 2.0 and 3.0 are known")),
         };
         let child = |name: &str| root.children().find(|child| child.has_tag_name(name));
-        let Some(own) = child("CoSimulation") else {
-            let other =
-                if child("ModelExchange").is_some() { "model exchange" } else { "scheduled execution" };
-            return Err(format!("it supports {other} only; export it for co-simulation"));
-        };
         let required = |node: Node<'_, '_>, name: &str| {
             node.attribute(name).map(str::to_owned).ok_or_else(|| format!("its description lacks `{name}`"))
         };
-        let is_true = |name: &str| matches!(own.attribute(name), Some("true" | "1"));
         let (token, [can, serializes]) = match standard {
             Standard::Fmi2 => ("guid", ["canGetAndSetFMUstate", "canSerializeFMUstate"]),
             Standard::Fmi3 => ("instantiationToken", ["canGetAndSetFMUState", "canSerializeFMUState"]),
         };
+        let kind = |name: &str| {
+            let Some(own) = child(name) else { return Ok(None) };
+            let is_true = |name: &str| matches!(own.attribute(name), Some("true" | "1"));
+            let is_needed = own.attribute("needsCompletedIntegratorStep").is_none()
+                || is_true("needsCompletedIntegratorStep");
+            Ok::<_, String>(Some(Kind {
+                library: required(own, "modelIdentifier")?,
+                saves: is_true(can) && is_true(serializes),
+                differentiates: is_true("providesDirectionalDerivative")
+                    || is_true("providesDirectionalDerivatives"),
+                completes: is_needed && !is_true("completedIntegratorStepNotNeeded"),
+            }))
+        };
         let variables = child("ModelVariables").into_iter().flat_map(|node| node.children());
         let variables = variables.filter(Node::is_element).map(|node| of_variable(node, standard));
+        let variables: Vec<Described> = variables.collect::<Result<_, _>>()?;
+        let structure = child("ModelStructure");
+        let unknowns = |second: &str, third: &str| {
+            let nodes: Vec<Node<'_, '_>> = match standard {
+                Standard::Fmi2 => {
+                    let list =
+                        structure.and_then(|node| node.children().find(|own| own.has_tag_name(second)));
+                    list.into_iter().flat_map(|node| node.children()).filter(Node::is_element).collect()
+                }
+                Standard::Fmi3 => {
+                    let all = structure.into_iter().flat_map(|node| node.children());
+                    all.filter(|node| node.has_tag_name(third)).collect()
+                }
+            };
+            nodes
+                .into_iter()
+                .map(|node| of_unknown(node, standard, &variables))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        let (outputs, derivatives) =
+            (unknowns("Outputs", "Output")?, unknowns("Derivatives", "ContinuousStateDerivative")?);
+        let indicators = match standard {
+            Standard::Fmi2 => root.attribute("numberOfEventIndicators").and_then(|count| count.parse().ok()),
+            Standard::Fmi3 => {
+                let all = unknowns("", "EventIndicator")?;
+                if let Some((array, _)) = all.iter().find(|(index, _)| variables[*index].variable.is_none()) {
+                    return Err(format!("its event indicator `{}` is an array", variables[*array].name));
+                }
+                Some(all.len())
+            }
+        };
+        let [co_simulation, model_exchange] = [kind("CoSimulation")?, kind("ModelExchange")?];
         Ok(Self {
             standard,
-            library: required(own, "modelIdentifier")?,
             token: required(root, token)?,
-            saves: is_true(can) && is_true(serializes),
-            variables: variables.collect::<Result<_, _>>()?,
+            co_simulation,
+            model_exchange,
+            outputs,
+            derivatives,
+            indicators: indicators.unwrap_or(0),
+            variables,
         })
+    }
+
+    /// The variable that an attribute names: by the index from 1 in FMI 2.0, by the value reference in FMI 3.0.
+    pub(super) fn named(&self, number: u32) -> Option<usize> {
+        named(&self.variables, self.standard, number)
     }
 
     /// Folders of the shared library for this platform, as the versions of the standard name them.
@@ -91,6 +163,28 @@ impl Description {
             }
         }
     }
+}
+
+fn named(variables: &[Described], standard: Standard, number: u32) -> Option<usize> {
+    match standard {
+        Standard::Fmi2 => (number as usize).checked_sub(1).filter(|index| *index < variables.len()),
+        Standard::Fmi3 => variables.iter().position(|own| own.reference == number),
+    }
+}
+
+/// A variable of the structure with those on which it depends.
+fn of_unknown(
+    node: Node<'_, '_>,
+    standard: Standard,
+    variables: &[Described],
+) -> Result<(usize, Option<Vec<usize>>), String> {
+    let find = |text: &str| text.parse().ok().and_then(|number| named(variables, standard, number));
+    let own = node.attribute(if standard == Standard::Fmi2 { "index" } else { "valueReference" });
+    let wrong = || "its model structure names a variable that it does not have".to_owned();
+    let index = own.and_then(find).ok_or_else(wrong)?;
+    let Some(list) = node.attribute("dependencies") else { return Ok((index, None)) };
+    let all = list.split_whitespace().map(|text| find(text).ok_or_else(wrong));
+    Ok((index, Some(all.collect::<Result<_, _>>()?)))
 }
 
 fn of_variable(node: Node<'_, '_>, standard: Standard) -> Result<Described, String> {
@@ -118,5 +212,21 @@ fn of_variable(node: Node<'_, '_>, standard: Standard) -> Result<Described, Stri
             || matches!(node.attribute("initial"), Some("exact" | "approx")));
     let start = typed.attribute("start").map(str::to_owned);
     let holds = if is_array { format!("array of {holds}") } else { holds };
-    Ok(Described { name, causality, variable, holds, start, is_settable })
+    let is_real = variable.is_some_and(|variable| variable.holds == VariableType::Real);
+    let is_continuous = is_real
+        && causality != "parameter"
+        && matches!(node.attribute("variability"), None | Some("continuous"));
+    let nominal = typed.attribute("nominal").and_then(|text| text.parse::<f64>().ok()).map(f64::abs);
+    Ok(Described {
+        name,
+        reference,
+        causality,
+        variable,
+        holds,
+        start,
+        is_settable,
+        is_continuous,
+        nominal: nominal.filter(|nominal| *nominal > 0.0 && nominal.is_finite()).unwrap_or(1.0),
+        derivative: typed.attribute("derivative").and_then(|text| text.parse().ok()),
+    })
 }

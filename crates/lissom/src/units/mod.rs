@@ -1,20 +1,23 @@
-//! Units of other programs (FMI 2.0 and 3.0, co-simulation) in a model: their archives and descriptions, and their processes.
+//! Units of other programs (FMI 2.0 and 3.0) in a model: their archives and descriptions, and their processes.
 
 mod description;
+mod equations;
 mod process;
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use lissom_core::signals::exchange::UnitEquations;
 use lissom_core::simulation::{Unit, UnitFault};
-use lissom_model::document::UnitEntry;
+use lissom_model::document::{ExchangePorts, UnitEntry, UnitMode};
 use lissom_model::{Document, Located, Problem, Report, Span, files, suggestion};
 use lissom_units::{Opening, Variable};
 
 use crate::encodings::unarchive::Unarchived;
-use description::{Described, Description};
+use description::{Described, Description, Kind};
 use process::{UnitProcess, UnpackedFolder};
 
 pub use process::{COMMAND, set_host};
@@ -38,26 +41,33 @@ pub fn serve() -> std::io::Result<()> {
     lissom_units::serve(crate::VERSION)
 }
 
-/// Reads the units of a document, in the order of `names`.
+/// Reads the units of a document, and returns it with the equations of those for model exchange.
 ///
 /// # Errors
 /// All problems, underlined in the model's text.
-pub(crate) fn read<'n>(
-    document: &Document,
-    names: impl Iterator<Item = &'n str>,
-) -> Result<Vec<ReadUnit>, Report> {
+pub(crate) fn read(document: &Document) -> Result<(Cow<'_, Document>, Vec<ReadUnit>), Report> {
+    let mut with_equations = Cow::Borrowed(document);
     let (mut units, mut problems) = (Vec::new(), Vec::new());
-    for name in names {
-        let Some(entry) = document.units.iter().find(|entry| entry.name.value == name) else { continue };
+    for (index, entry) in document.units.iter().enumerate() {
         match read_one(entry) {
-            Ok(unit) => units.push(unit),
+            Ok((unit, exchange)) => {
+                units.push(unit);
+                if exchange.is_some() {
+                    with_equations.to_mut().units[index].exchange = exchange;
+                }
+            }
             Err(problem) => problems.push(*problem),
         }
     }
-    if problems.is_empty() { Ok(units) } else { Err(document.report(problems)) }
+    if problems.is_empty() { Ok((with_equations, units)) } else { Err(document.report(problems)) }
 }
 
-fn read_one(entry: &UnitEntry) -> Result<ReadUnit, Box<Problem>> {
+/// The units of these names, in their order.
+pub(crate) fn in_order<'n>(units: &[ReadUnit], names: impl Iterator<Item = &'n str>) -> Vec<ReadUnit> {
+    names.filter_map(|name| units.iter().find(|unit| unit.opening.name == name).cloned()).collect()
+}
+
+fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<ExchangePorts>), Box<Problem>> {
     let name = &entry.name.value;
     let (path, span) = (&entry.file.value, entry.file.span);
     let fail = |message: String, help: &str| Box::new(Problem::error(span, message).help(help));
@@ -72,7 +82,7 @@ fn read_one(entry: &UnitEntry) -> Result<ReadUnit, Box<Problem>> {
     let about = |message: String| {
         fail(
             format!("unit `{name}`: `{shown}` cannot be used: {message}"),
-            "export the unit again, for co-simulation with FMI 2.0 or 3.0",
+            "export the unit again, for co-simulation or model exchange with FMI 2.0 or 3.0",
         )
     };
     let files = Unarchived::of(&archive).map_err(about)?;
@@ -80,8 +90,10 @@ fn read_one(entry: &UnitEntry) -> Result<ReadUnit, Box<Problem>> {
     let text = text.ok_or_else(|| about("it has no `modelDescription.xml`, so it is no FMU".to_owned()))?;
     let text = String::from_utf8(text).map_err(|_| about("its description is not in UTF-8".to_owned()))?;
     let description = Description::read(&text).map_err(about)?;
+    let (mode, kind) = mode_of(entry, &description).map_err(about)?;
+    check_sample(entry, mode)?;
     let suffix = std::env::consts::DLL_SUFFIX;
-    let library = |platform: &String| format!("binaries/{platform}/{}{suffix}", description.library);
+    let library = |platform: &String| format!("binaries/{platform}/{}{suffix}", kind.library);
     let platforms = description.platforms();
     let Some(platform) = platforms.iter().find(|platform| files.names().any(|own| own == library(platform)))
     else {
@@ -103,6 +115,7 @@ fn read_one(entry: &UnitEntry) -> Result<ReadUnit, Box<Problem>> {
     let missing = description.variables.iter().find(|own| {
         own.causality == "input"
             && own.variable.is_some()
+            && (mode == UnitMode::CoSimulation || own.is_continuous)
             && !entry.inputs.iter().any(|(given, _)| given.value == own.name)
     });
     if let Some(missing) = missing {
@@ -120,22 +133,62 @@ fn read_one(entry: &UnitEntry) -> Result<ReadUnit, Box<Problem>> {
         parameters.push((variables.find(variable, "parameter", |own| own.is_settable)?, *value));
     }
     let (library, binaries) = (library(platform), format!("binaries/{platform}/"));
+    let saves = kind.saves;
+    let equations = match mode {
+        UnitMode::CoSimulation => None,
+        UnitMode::ModelExchange => Some(equations::of(entry, &description, kind)?),
+    };
+    let (ports, exchange) = equations.unzip();
     let opening = Opening {
         version: crate::VERSION.to_owned(),
         standard: description.standard,
         library,
         resources: "resources".to_owned(),
         name: name.clone(),
-        token: description.token,
+        token: description.token.clone(),
         start: 0.0,
         parameters,
         inputs,
         outputs,
-        saves: description.saves,
+        saves,
+        exchange,
     };
     let timeout = Duration::try_from_secs_f64(entry.timeout).unwrap_or(Duration::MAX);
     let timeout = timeout.max(Duration::from_millis(1));
-    Ok(ReadUnit { archive: archive.into(), binaries, opening, timeout })
+    Ok((ReadUnit { archive: archive.into(), binaries, opening, timeout }, ports))
+}
+
+/// How a unit is simulated: as requested, or as it supports.
+fn mode_of<'d>(entry: &UnitEntry, description: &'d Description) -> Result<(UnitMode, &'d Kind), String> {
+    let co_simulation = description.co_simulation.as_ref().map(|kind| (UnitMode::CoSimulation, kind));
+    let exchange = description.model_exchange.as_ref().map(|kind| (UnitMode::ModelExchange, kind));
+    match entry.mode {
+        None => co_simulation.or(exchange).ok_or_else(|| "it supports scheduled execution only".to_owned()),
+        Some(UnitMode::CoSimulation) => {
+            co_simulation.ok_or_else(|| "it does not support co-simulation".to_owned())
+        }
+        Some(UnitMode::ModelExchange) => {
+            exchange.ok_or_else(|| "it does not support model exchange".to_owned())
+        }
+    }
+}
+
+/// A unit has samples for co-simulation, and none for model exchange.
+fn check_sample(entry: &UnitEntry, mode: UnitMode) -> Result<(), Box<Problem>> {
+    let name = &entry.name.value;
+    match (mode, entry.sample) {
+        (UnitMode::CoSimulation, None) => {
+            let message = format!("unit `{name}` lacks `sample`, its step for co-simulation");
+            let help = "add `sample`, in seconds; units for model exchange have none";
+            Err(Box::new(Problem::error(entry.name.span, message).help(help)))
+        }
+        (UnitMode::ModelExchange, Some(sample)) => {
+            let message = format!("unit `{name}` is for model exchange, and has no samples");
+            let help = "remove `sample`: its equations are solved with those of the model";
+            Err(Box::new(Problem::error(sample.span, message).label("here").help(help)))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Variables of a unit.
@@ -186,8 +239,17 @@ impl Variables<'_> {
 }
 
 impl ReadUnit {
-    /// Starts the unit in a process, at the time `start` [s].
+    /// Starts a unit for co-simulation in a process, at the time `start` [s].
     pub(crate) fn start(&self, start: f64) -> Result<Box<dyn Unit>, UnitFault> {
+        Ok(Box::new(self.process(start)?))
+    }
+
+    /// Starts a unit for model exchange likewise.
+    pub(crate) fn start_equations(&self, start: f64) -> Result<Box<dyn UnitEquations>, UnitFault> {
+        Ok(Box::new(self.process(start)?))
+    }
+
+    fn process(&self, start: f64) -> Result<UnitProcess, UnitFault> {
         let folder = self.unpack().map_err(|reason| UnitFault {
             cause: format!("its files cannot be unpacked: {reason}"),
             remedy: "check the folder of temporary files, TMPDIR, and its free space".to_owned(),
@@ -199,7 +261,7 @@ impl ReadUnit {
             resources: absolute(&self.opening.resources),
             ..self.opening.clone()
         };
-        Ok(Box::new(UnitProcess::start(opening, folder, self.timeout)?))
+        UnitProcess::start(opening, folder, self.timeout)
     }
 
     /// Writes the files that the unit needs to a new temporary folder, which only this user can read.

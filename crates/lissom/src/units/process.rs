@@ -6,8 +6,9 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use lissom_core::signals::exchange::{AfterEvent, UnitEquations, UnitPoint, UnitValues};
 use lissom_core::simulation::{Unit, UnitFault};
-use lissom_units::{Answer, Opening, Reply, Request, receive, send};
+use lissom_units::{Answer, Opening, Point, Reply, Request, receive, send};
 
 #[cfg(unix)]
 type Stream = std::os::unix::net::UnixStream;
@@ -61,6 +62,10 @@ fn host() -> Result<Command, UnitFault> {
 pub(super) struct UnitProcess {
     connection: Mutex<Connection>,
     saves: bool,
+    /// Whether the unit must be notified of accepted steps.
+    completes: bool,
+    /// Number of states with equations.
+    states: usize,
 }
 
 struct Connection {
@@ -120,6 +125,8 @@ impl UnitProcess {
         timeout: Duration,
     ) -> Result<Self, UnitFault> {
         let saves = opening.saves;
+        let (completes, states) =
+            opening.exchange.as_ref().map_or((false, 0), |own| (own.completes, own.states.len()));
         let mut command = host()?;
         let program = PathBuf::from(command.get_program());
         let failed = |error: io::Error| UnitFault {
@@ -131,7 +138,7 @@ impl UnitProcess {
             Connection { child, stream: Some(stream), written: Arc::default(), timeout, _folder: folder };
         connection.collect_errors();
         connection.request(&Request::Open(Box::new(opening)))?;
-        Ok(Self { connection: Mutex::new(connection), saves })
+        Ok(Self { connection: Mutex::new(connection), saves, completes, states })
     }
 
     fn request(&self, request: &Request) -> Result<Answer, UnitFault> {
@@ -144,12 +151,28 @@ impl UnitProcess {
                 out.copy_from_slice(&values);
                 Ok(())
             }
-            _ => Err(UnitFault {
-                cause: "its process gives another answer than expected".to_owned(),
-                remedy: "start the simulation again".to_owned(),
-            }),
+            _ => Err(unexpected()),
         }
     }
+
+    fn saved(&self) -> Option<Vec<u8>> {
+        match self.saves.then(|| self.request(&Request::Save)) {
+            Some(Ok(Answer::State(state))) => Some(state),
+            _ => None,
+        }
+    }
+}
+
+fn unexpected() -> UnitFault {
+    UnitFault {
+        cause: "its process gives another answer than expected".to_owned(),
+        remedy: "start the simulation again".to_owned(),
+    }
+}
+
+/// A fault of a unit whose values cannot be used at a point.
+fn unusable(cause: String) -> UnitFault {
+    UnitFault { cause, remedy: "look for the cause in its inputs, states and parameters".to_owned() }
 }
 
 /// Starts the process with a socket as its standard input. It has a group of its own, so that an interrupt from the keyboard reaches
@@ -218,7 +241,7 @@ impl Connection {
                         "it needs a Python interpreter: run the model from Python, or set {PROGRAM}=python3"
                     )
                 } else {
-                    "check its inputs, its parameters and its step `sample`".to_owned()
+                    "check its inputs and parameters, and its step `sample` if it has one".to_owned()
                 };
                 return Err(UnitFault { cause, remedy });
             }
@@ -282,10 +305,82 @@ impl Unit for UnitProcess {
     }
 
     fn save(&self) -> Option<Vec<u8>> {
-        match self.saves.then(|| self.request(&Request::Save)) {
-            Some(Ok(Answer::State(state))) => Some(state),
-            _ => None,
+        self.saved()
+    }
+
+    fn restore(&mut self, state: &[u8]) -> Result<(), UnitFault> {
+        self.request(&Request::Restore(state.to_vec())).map(|_| ())
+    }
+}
+
+fn point(at: &UnitPoint) -> Point {
+    Point { time: at.time, states: at.states.clone(), inputs: at.inputs.clone() }
+}
+
+impl UnitEquations for UnitProcess {
+    fn begin(&mut self, inputs: &[f64]) -> Result<Vec<f64>, UnitFault> {
+        let mut states = vec![0.0; self.states];
+        self.values(&Request::Begin(inputs.to_vec()), &mut states)?;
+        Ok(states)
+    }
+
+    fn evaluate(
+        &mut self,
+        group: usize,
+        time: f64,
+        arguments: &[f64],
+        differentiates: bool,
+    ) -> Result<Result<UnitValues, UnitFault>, UnitFault> {
+        match self.request(&Request::Evaluate {
+            group,
+            time,
+            arguments: arguments.to_vec(),
+            differentiates,
+        })? {
+            Answer::Evaluated { values, derivatives }
+                if !differentiates || derivatives.len() == values.len() * arguments.len() =>
+            {
+                if values.iter().chain(&derivatives).all(|value| value.is_finite()) {
+                    Ok(Ok(UnitValues { values, derivatives }))
+                } else {
+                    Ok(Err(unusable(format!(
+                        "one of its values or derivatives is not finite at t = {time} s"
+                    ))))
+                }
+            }
+            Answer::Discarded(cause) => Ok(Err(unusable(cause))),
+            _ => Err(unexpected()),
         }
+    }
+
+    fn complete(&mut self, at: &UnitPoint) -> Result<bool, UnitFault> {
+        if !self.completes {
+            return Ok(false);
+        }
+        match self.request(&Request::Complete(point(at)))? {
+            Answer::Completed(requests) => Ok(requests),
+            _ => Err(unexpected()),
+        }
+    }
+
+    fn event(&mut self, at: &UnitPoint) -> Result<AfterEvent, UnitFault> {
+        match self.request(&Request::Event(point(at)))? {
+            Answer::Event(states, next) if states.len() == self.states => {
+                let is_wrong = states.iter().any(|state| !state.is_finite());
+                let is_past = next.is_some_and(|next| next.is_nan() || next <= at.time);
+                let cause = match (is_wrong, is_past) {
+                    (true, _) => "a state is not finite after its event",
+                    (_, true) => "it announces its next event at a time that has passed",
+                    _ => return Ok(AfterEvent { states, next }),
+                };
+                Err(unusable(cause.to_owned()))
+            }
+            _ => Err(unexpected()),
+        }
+    }
+
+    fn save(&self) -> Option<Vec<u8>> {
+        self.saved()
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), UnitFault> {

@@ -432,7 +432,7 @@ class ModelTables(ModelTree):
 
     @property
     def units(self) -> dict[str, Unit]:
-        """Co-simulation units (FMI) of other programs, advanced from sample to sample."""
+        """Units (FMI) of other programs: advanced from sample to sample, or with equations that are solved with those of the model."""
         of: dict[str, Unit] = self._table("units")
         return of
 

@@ -49,12 +49,13 @@ class Event(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Unit(Entry):
-    """Co-simulation units (FMI) of other programs, advanced from sample to sample.
+    """Units (FMI) of other programs: advanced from sample to sample, or with equations that are solved with those of the model.
 
     Args:
         file: the unit, a file `.fmu`; path relative to this file; a text.
-        sample: time from sample to sample: the step of the unit, over which inputs and outputs are constant [s]; a number > 0.
-        inputs: input variables of the unit, with expressions of their values at samples; a table, or nothing.
+        sample: for co-simulation, required: time from sample to sample, over which inputs and outputs are constant [s]; a number > 0, or nothing.
+        mode: for units that support both: steps of its own, or equations solved with those of the model; default the first; `"co_simulation"`, `"model_exchange"`, or nothing.
+        inputs: input variables of the unit, with expressions of their values; a table, or nothing.
         outputs: output variables of the unit: `y = "VARIABLE"` is `unit.y` in expressions; a table, or nothing.
         parameters: start values of variables of the unit, numbers; a table, or nothing.
         timeout: real time after which a unit that does not answer has failed; default 60 [s]; a number > 0, or nothing.
@@ -63,7 +64,8 @@ class Unit(Entry):
     _table: ClassVar[str] = "units"
 
     file: str
-    sample: Number
+    sample: Number | None = None
+    mode: Literal["co_simulation", "model_exchange"] | None = None
     inputs: Table | None = None
     outputs: Table | None = None
     parameters: Table | None = None

@@ -277,7 +277,7 @@ class Part(Entry):
         signals: Named expressions of time, inputs, states and outputs; entries as in `[signals]`, or nothing.
         states: First-order states: numbers whose time derivative is an expression; entries as in `[states]`, or nothing.
         events: Actions when expressions cross zero; entries as in `[events]`, or nothing.
-        units: Co-simulation units (FMI) of other programs, advanced from sample to sample; entries as in `[units]`, or nothing.
+        units: Units (FMI) of other programs: advanced from sample to sample, or with equations that are solved with those of the model; entries as in `[units]`, or nothing.
         fluids: Fluids of hydraulic parts; entries as in `[fluids]`, or nothing.
         hydraulics: Hydraulic parts: nodes with a pressure, and components between them such as cylinders, valves and pumps; entries as in `[hydraulics]`, or nothing.
         outputs: Quantities to be recorded; entries as in `[outputs]`, or nothing.
