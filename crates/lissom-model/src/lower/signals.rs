@@ -381,17 +381,7 @@ fn resolve(
     let problem =
         |message: String| Problem::error(place, format!("{what} cannot be read: {message}")).label("here");
     let Some((owner, component)) = name.text.rsplit_once('.') else {
-        let owners = document.outputs.iter().map(|output| output.name.value.as_str());
-        let known = names.signals.keys().map(String::as_str).chain(["t", "pi"]);
-        let known = known.chain(document.parameters.keys().map(String::as_str));
-        let message = format!("unknown name `{}`", name.text);
-        let is_owner =
-            owners.chain(names.coordinates.keys().map(String::as_str)).any(|owner| owner == name.text);
-        let help = if is_owner {
-            Some(format!("write a component, such as `{}.rate` or `{}.u1`", name.text, name.text))
-        } else {
-            suggest::help(&name.text, known)
-        };
+        let (message, help) = unknown(document, names, &name.text);
         return Err(problem(message).maybe_help(help));
     };
     if component == PREVIOUS_SAMPLE
@@ -473,6 +463,20 @@ fn resolve(
     });
     names.references.measured.insert(key, Argument::Held(held));
     Ok(Argument::Held(held))
+}
+
+/// What is wrong with a name without a component that is unknown, and the remedy.
+fn unknown(document: &Document, names: &Names, name: &str) -> (String, Option<String>) {
+    let owners = document.outputs.iter().map(|output| output.name.value.as_str());
+    let known = names.signals.keys().map(String::as_str).chain(["t", "pi"]);
+    let known = known.chain(document.parameters.keys().map(String::as_str));
+    let is_owner = owners.chain(names.coordinates.keys().map(String::as_str)).any(|owner| owner == name);
+    let help = if is_owner {
+        Some(format!("write a component, such as `{name}.rate` or `{name}.u1`"))
+    } else {
+        suggest::help(name, known)
+    };
+    (format!("unknown name `{name}`"), help)
 }
 
 /// The output of this name, if it is a signal or an expression.
