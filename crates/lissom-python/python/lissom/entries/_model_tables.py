@@ -46,6 +46,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "generalized_coordinates": joints.GeneralizedCoordinates,
         "generic": joints.Generic,
         "inline": joints.Inline,
+        "mean_motion": joints.MeanMotion,
         "parallel_axes": joints.ParallelAxes,
         "perpendicular_axes": joints.PerpendicularAxes,
         "planar": joints.Planar,

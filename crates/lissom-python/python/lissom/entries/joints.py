@@ -318,6 +318,29 @@ class Inline(Joint):
 
 
 @dataclass(kw_only=True, slots=True)
+class MeanMotion(Joint):
+    """A body has the mean motion of a set of nodes of a shell or solid, which deforms freely (distributing coupling, RBE3).
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: set of nodes that the body follows, such as "block.east"; a node.
+        tip: body that follows it; a node.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+    """
+
+    _form: ClassVar[str] = "mean_motion"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class ParallelAxes(Joint):
     """The tip rotates only about `axis` and translates freely; the relative rotation is a coordinate.
 

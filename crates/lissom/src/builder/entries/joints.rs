@@ -79,6 +79,12 @@ entries! {
         * axis: [f64; 3] = "axis", "direction at the start, global axes";
     }
 
+    /// A body has the mean motion of a set of nodes of a shell or solid, which deforms freely (distributing coupling, RBE3).
+    MeanMotion => JointId, kind: "mean_motion" {
+        * base: Node = "base", "set of nodes that the body follows, such as \"block.east\"";
+        * tip: Node = "tip", "body that follows it";
+    }
+
     /// The tip rotates only about `axis` and translates freely; the relative rotation is a coordinate.
     ParallelAxes => JointId, kind: "parallel_axes" {
         * base: Node = "base", "first node: \"ground\", \"body\", \"beam.end\" …";
@@ -264,7 +270,7 @@ keys! {
 }
 
 keys! {
-    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, TelescopicRod, Universal, WheelOnRail]
+    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, MeanMotion, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, TelescopicRod, Universal, WheelOnRail]
         friction: Friction = "friction", "Friction on its only coordinate.";
         latch: Latch = "latch", "Latch that engages when its only coordinate first reaches the value `at`, and locks it there.";
         release: Expression = "release", "The latch releases when this expression rises through zero; without `latch` it is engaged from the start.";
