@@ -283,14 +283,14 @@ impl Assembly<'_> {
         whole: &Whole,
         (columns, frequencies): (&mut Vec<Vec<f64>>, &mut Vec<f64>),
     ) -> Result<bool, ReductionError> {
-        const RIGID_MOTIONS: usize = 6;
+        let rigid_motions = 6;
         let mut model = LinearModel::of(self.free, self.state, self.solver)?;
         if model.imbalance() > round_off::POSITION {
             return Err(ReductionError::Unbalanced { displacement: model.imbalance() });
         }
         model.parts.damping.fill(0.0);
         model.is_conservative = true;
-        let found = model.modes(&ModeOptions { count: count + RIGID_MOTIONS, shift: None })?;
+        let found = model.modes(&ModeOptions { count: count + rigid_motions, shift: None })?;
         let layout = self.free.layout();
         let size = layout.coordinate_count();
         let without = |shape: Vec<f64>| {
@@ -304,7 +304,7 @@ impl Assembly<'_> {
             }
             own
         };
-        let shapes: Vec<Vec<f64>> = (found.modes.iter().skip(RIGID_MOTIONS))
+        let shapes: Vec<Vec<f64>> = (found.modes.iter().skip(rigid_motions))
             .map(|mode| without(mode.shape.iter().take(size).map(|own| own.re).collect()))
             .collect();
         let all = DMatrix::from_fn(size, shapes.len(), |i, j| shapes[j][i]);

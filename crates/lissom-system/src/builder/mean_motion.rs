@@ -5,9 +5,6 @@ use lissom_mechanics::joints::mean_motion::{EQUATIONS, MeanMotion};
 use lissom_mechanics::kinematics::Quantity;
 use lissom_mechanics::registry::ParameterError;
 
-/// Largest set: the equations relate all of its nodes to each other, which takes time and memory of the square of their number.
-const MAX_NODES: usize = 400;
-
 impl Builder {
     /// Gives the last node of an attachment the mean motion of those before it, by their shares.
     ///
@@ -25,9 +22,11 @@ impl Builder {
             let problem = "must be a body that turns freely, not a point mass or a node of a planar model";
             return Err(ParameterError::new("tip", problem));
         }
-        if set.len() > MAX_NODES {
+        // The equations relate all nodes of a set to each other, which takes time and memory of the square of their number.
+        let most = 400;
+        if set.len() > most {
             let problem = format!(
-                "has {} nodes, more than {MAX_NODES}: their mean would take long; name a part of them",
+                "has {} nodes, more than {most}: their mean would take long; name a part of them",
                 set.len()
             );
             return Err(ParameterError::new("base", problem));

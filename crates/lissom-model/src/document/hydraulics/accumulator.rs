@@ -1,7 +1,7 @@
 //! Accumulators with a gas.
 
+use super::kind::{HydraulicKind, port};
 use super::net::Term;
-use super::{HydraulicKind, port};
 use crate::format::keys::{Shape, required, unitless};
 
 /// Registry entry.

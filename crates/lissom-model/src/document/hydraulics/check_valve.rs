@@ -1,7 +1,7 @@
 //! Check valves.
 
+use super::kind::{HydraulicKind, port};
 use super::orifice::{LAW, of_rated, rated};
-use super::{HydraulicKind, port};
 use crate::format::keys::{Shape, optional};
 
 /// Registry entry.

@@ -3,8 +3,8 @@
 use lissom_mechanics::registry::Value as Held;
 
 use super::fluid::ATMOSPHERE;
+use super::kind::{HydraulicKind, Port, port};
 use super::net::{Net, Part, Term};
-use super::{HydraulicKind, Port, port};
 use crate::format::keys::{Shape, optional, required};
 
 /// Registry entry.

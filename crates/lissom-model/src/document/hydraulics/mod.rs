@@ -8,6 +8,7 @@ mod accumulator;
 mod check_valve;
 mod cylinder;
 mod fluid;
+mod kind;
 mod net;
 mod nodes;
 mod orifice;
@@ -31,6 +32,7 @@ use crate::text::Value;
 use crate::text::report::Located;
 
 pub(super) use fluid::keys as fluid_keys;
+use kind::HydraulicKind;
 use net::{Net, Part};
 
 /// A hydraulic part, as messages and outputs name it.
@@ -40,26 +42,6 @@ pub struct HydraulicEntry {
     pub name: Located<String>,
     /// Components with their units: `NAME.COMPONENT` in expressions.
     pub components: &'static [(&'static str, &'static str)],
-}
-
-/// A key that names a node.
-struct Port {
-    key: &'static str,
-    is_required: bool,
-    summary: &'static str,
-}
-
-/// A kind of hydraulic part.
-struct HydraulicKind {
-    word: &'static str,
-    summary: &'static str,
-    ports: &'static [Port],
-    keys: fn() -> Vec<Key>,
-    /// Whether its nodes may have different fluids.
-    separates_fluids: bool,
-    /// Names and units of its signals.
-    components: &'static [OutputComponent],
-    add: fn(&Part<'_, '_, '_>, &mut Net<'_, '_>) -> Option<()>,
 }
 
 /// All kinds in the order of the manual, those of nodes first.
@@ -76,10 +58,6 @@ const KINDS: [&HydraulicKind; 11] = [
     &accumulator::KIND,
     &pipe::KIND,
 ];
-
-const fn port(key: &'static str, summary: &'static str) -> Port {
-    Port { key, is_required: true, summary }
-}
 
 /// The forms of an entry of `[hydraulics]`.
 pub(super) fn variants() -> Vec<Variant> {
@@ -115,7 +93,7 @@ pub(super) fn add(context: &Context<'_>, registry: &Registry, document: &mut Doc
     document.hydraulics = each_of_kind(context, "hydraulics", registry, |reader, name, word| {
         check_name(context, "hydraulic part", name, reader.name)?;
         let kind = KINDS.into_iter().find(|kind| kind.word == word)?;
-        let part = Part::new(reader, name, kind)?;
+        let part = Part::new(reader, name, kind, |node| kind_of(context, node))?;
         let mut net = net.borrow_mut();
         (kind.add)(&part, &mut net)?;
         net.add_power(&part)?;

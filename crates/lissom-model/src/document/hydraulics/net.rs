@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use lissom_mechanics::registry::{Parameters, Value as Held};
 
 use super::fluid::{self, ATMOSPHERE, Fluid, fluids};
+use super::kind::HydraulicKind;
 use super::nodes::{Node, NodeKind};
-use super::{HydraulicKind, kind_of};
 use crate::document::{Attachment, Component, Document, SignalEntry, StateEntry};
 use crate::expression::Formula;
 use crate::parts::context::Context;
@@ -61,7 +61,12 @@ pub(super) struct Part<'r, 'c, 'a> {
 
 impl<'r, 'c, 'a> Part<'r, 'c, 'a> {
     /// Reads the ports; none if one is wrong.
-    pub(super) fn new(reader: &'r Reader<'c, 'a>, name: &'r str, kind: &HydraulicKind) -> Option<Self> {
+    pub(super) fn new(
+        reader: &'r Reader<'c, 'a>,
+        name: &'r str,
+        kind: &HydraulicKind,
+        kind_of: impl Fn(&str) -> Option<&'static HydraulicKind>,
+    ) -> Option<Self> {
         let context = reader.context;
         let mut nodes: Vec<Option<String>> = Vec::new();
         for port in kind.ports {
@@ -72,7 +77,7 @@ impl<'r, 'c, 'a> Part<'r, 'c, 'a> {
             }
             let node = reader.name_in(port.key)?;
             let words = reader.words(port.key);
-            let other = kind_of(context, &node.value)?;
+            let other = kind_of(&node.value)?;
             if !other.ports.is_empty() {
                 let message =
                     format!("{words} names `{}`, which is of kind `{}` and no node", node.value, other.word);

@@ -1,7 +1,7 @@
 //! Nodes: what has one pressure.
 
-use super::HydraulicKind;
 use super::fluid::ATMOSPHERE;
+use super::kind::HydraulicKind;
 use crate::format::keys::{Key, Shape, optional, required, unitless};
 use crate::text::report::Located;
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::kind::{HydraulicKind, port};
 use super::net::{Net, Part, Term};
-use super::{HydraulicKind, port};
 use crate::format::keys::{Key, Shape, optional, required, unitless};
 
 /// Flow through an orifice of conductance `k` [m³/(s Pa^½)] for a pressure drop `d` [Pa]: the root of the drop, and linear in it

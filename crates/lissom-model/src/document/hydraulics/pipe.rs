@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::fluid::ATMOSPHERE;
+use super::kind::{HydraulicKind, port};
 use super::net::{Net, Part, Term};
-use super::{HydraulicKind, port};
 use crate::format::keys::{Shape, optional, required, unitless};
 
 /// Registry entry.

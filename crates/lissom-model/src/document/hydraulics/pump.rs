@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use super::kind::{HydraulicKind, port};
 use super::net::{Net, Part, Term};
-use super::{HydraulicKind, port};
 use crate::format::keys::{Shape, optional, required};
 
 /// Registry entry.

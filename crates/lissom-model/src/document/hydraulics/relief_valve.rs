@@ -1,6 +1,6 @@
 //! Pressure relief valves.
 
-use super::{HydraulicKind, port};
+use super::kind::{HydraulicKind, port};
 use crate::format::keys::{Shape, required};
 
 /// Registry entry.

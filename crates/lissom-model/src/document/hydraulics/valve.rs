@@ -1,8 +1,8 @@
 //! Proportional 4/3 valves.
 
+use super::kind::{HydraulicKind, port};
 use super::net::{Net, Part, Term};
 use super::orifice::{LAW, of_rated, rated};
-use super::{HydraulicKind, port};
 use crate::format::keys::{Shape, required, unitless};
 
 /// Registry entry.
