@@ -142,6 +142,8 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::HeightField => Value::Force(Arc::new(Waves(0.2))),
             // They replace other parameters; a test of their own gives them.
             ParameterType::Coefficients => continue,
+            // Only for coefficients.
+            _ if parameter.name == "mounted" => continue,
             // Differences do not see kinks; tests of their own do. Stops are touched.
             ParameterType::Range if parameter.name == "range" => Value::Range([-3.0, -2.0]),
             ParameterType::Matrix => {

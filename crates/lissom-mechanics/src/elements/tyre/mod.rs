@@ -238,6 +238,10 @@ fn build(
         let law = magic_formula(parameters)?;
         (law.radius(), Law::MagicFormula(Box::new(law)))
     } else {
+        if parameters.has("mounted") {
+            let problem = "has no effect without `magic_formula`: the brush is the same on both sides";
+            return Err(ParameterError::new("mounted", problem));
+        }
         let radius = if parameters.has("road") {
             parameters.number("radius")?
         } else {
