@@ -366,6 +366,8 @@ fn samples_of_kinds_are_good_models() {
         [sections.my_section]\nshape = \"general\"\nstiffness = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3]\n\
         mass = { per_length = 1, inertia = [2e-3, 1e-3, 1e-3] }\n\
         [beams.my_beam]\nsection = \"my_section\"\nfrom = [0, 0, -1]\nto = [2, 0, -1]\nelements = 4\n\
+        [materials.my_material]\nE = 1e9\nnu = 0.3\ndensity = 1000\n\
+        [solids.my_solid]\nsize = [1, 1, 1]\ndivisions = [1, 1, 1]\nmaterial = \"my_material\"\n\
         [joints.my_wall]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"my_beam.start\"\n\
         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
     let folder = Folder::new("samples");

@@ -150,7 +150,7 @@ pub struct LimitedPressure {
     pub node: Subject,
     /// The pressure [Pa].
     pub pressure: MeasurementId,
-    /// Its limit [Pa].
+    /// Limit [Pa].
     pub limit: f64,
 }
 

@@ -281,7 +281,7 @@ impl SignalFunction for UnitValue {
 pub struct ExchangedUnit {
     /// The running unit.
     pub slot: Arc<UnitSlot>,
-    /// Its states.
+    /// States.
     pub states: Vec<CoordinateId>,
     /// Signals that are its inputs.
     pub inputs: Vec<SignalId>,

@@ -29,7 +29,7 @@ pub struct UnitEntry {
     pub sample: Option<Located<f64>>,
     /// How it is simulated; none for what the unit supports.
     pub mode: Option<UnitMode>,
-    /// Its equations, for model exchange; none until the unit is read.
+    /// Equations, for model exchange; none until the unit is read.
     pub exchange: Option<ExchangePorts>,
     /// Longest real time of a call of the unit [s].
     pub timeout: f64,
@@ -40,7 +40,7 @@ pub struct UnitEntry {
 pub enum UnitMode {
     /// It takes its own steps from sample to sample.
     CoSimulation,
-    /// Its equations are solved with those of the model.
+    /// Equations solved with those of the model.
     ModelExchange,
 }
 

@@ -44,7 +44,7 @@ pub(super) struct SignalReferences {
 pub(super) struct AddedUnit {
     /// Where its running unit is attached.
     pub(super) slot: Arc<UnitSlot>,
-    /// Its states.
+    /// States.
     pub(super) states: Vec<CoordinateId>,
     /// The states as arguments of its values.
     pub(super) arguments: Vec<Argument>,

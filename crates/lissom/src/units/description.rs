@@ -51,7 +51,7 @@ pub(super) struct Described {
     pub(super) is_settable: bool,
     /// Whether it changes between events.
     pub(super) is_continuous: bool,
-    /// Its usual magnitude.
+    /// Usual magnitude.
     pub(super) nominal: f64,
     /// For a derivative: its state, by the index or the value reference, as the version of the standard defines.
     pub(super) derivative: Option<u32>,

@@ -189,7 +189,7 @@ transition = TRANSITION
     close(value(area, "hole.flow", "end = 0.1"), 0.7e-5 * (2.0 * drop / 860.0).sqrt(), 1e-6, "area");
 }
 
-/// Gas compressed by a constant flow: p (V0 - q t)^n = p0 V0^n, V0 - q t that of the gas but for what the line stores.
+/// Gas compressed by a constant flow: p (V0 - q t)^n = p0 V0^n, V0 - q t that of the gas except for what the line stores.
 #[test]
 fn an_accumulator_is_polytropic() {
     let parts = r#"
