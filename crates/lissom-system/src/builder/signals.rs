@@ -62,7 +62,7 @@ impl Builder {
     }
 
     /// Adds an algebraic unknown with a first guess of its value and its usual magnitude: the rate of a state, see
-    /// [`Target::Balance`]. Its equation is given with [`balance`](Self::balance).
+    /// `Target::Balance`. Its equation is given with [`balance`](Self::balance).
     pub fn add_unknown(&mut self, name: &str, guess: f64, magnitude: f64) -> CoordinateId {
         let state = self.add_state(name, 0.0, magnitude);
         self.model.coordinates[state.index()].rate = guess;
