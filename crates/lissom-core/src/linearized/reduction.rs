@@ -17,7 +17,7 @@
 
 use lissom_motion::{Matrix3, Vector3, skew};
 use lissom_solver::Pattern;
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::cubic::SecondOrder;
 use super::mode::{Completeness, ModeError, ModeOptions};
@@ -293,8 +293,10 @@ impl Assembly<'_> {
         let found = model.modes(&ModeOptions { count: count + rigid_motions, shift: None })?;
         let layout = self.free.layout();
         let size = layout.coordinate_count();
-        let without = |shape: Vec<f64>| {
+        // Without the static displacements with the same motion of the interfaces.
+        let inner = |shape: Vec<f64>| {
             let mut own = shape.clone();
+            own.resize(whole.size, 0.0);
             for (k, column) in columns.iter().enumerate() {
                 let node = self.interfaces[k / 6];
                 let rows = &layout.rows_of_node(node)[k % 6 / 3 * 3..][..3];
@@ -304,62 +306,48 @@ impl Assembly<'_> {
             }
             own
         };
-        let shapes: Vec<Vec<f64>> = (found.modes.iter().skip(rigid_motions))
-            .map(|mode| without(mode.shape.iter().take(size).map(|own| own.re).collect()))
+        let all: Vec<Vec<f64>> = (found.modes.iter().skip(rigid_motions))
+            .map(|mode| inner(mode.shape.iter().take(size).map(|own| own.re).collect()))
             .collect();
-        let all = DMatrix::from_fn(size, shapes.len(), |i, j| shapes[j][i]);
-        let among = |values: &[f64], all: &DMatrix<f64>| {
-            let mut image = vec![0.0; whole.size];
-            let mut images = DMatrix::zeros(size, all.ncols());
-            for (j, column) in all.column_iter().enumerate() {
-                let filled: Vec<f64> =
-                    column.iter().copied().chain(std::iter::repeat_n(0.0, whole.size - size)).collect();
-                self.free.pattern().multiply(values, &filled, &mut image);
-                images.column_mut(j).copy_from_slice(&image[..size]);
-            }
-            let matrix = all.tr_mul(&images);
-            0.5 * (&matrix + matrix.transpose())
+        // Shapes that are static ones except for round-off are none.
+        let own = |parts: &[f64], all: &[Vec<f64>]| {
+            let matrix = self.among(parts, all);
+            SymmetricEigen::new(0.5 * (&matrix + matrix.transpose()))
         };
-        // Modes whose difference from static shapes is round-off are none.
-        let SymmetricEigen { eigenvectors, eigenvalues } =
-            SymmetricEigen::new(among(&whole.parts.mass, &all));
-        let kept: Vec<usize> =
-            (0..eigenvalues.len()).filter(|&k| eigenvalues[k] > 1e-10 * eigenvalues.amax()).collect();
-        let unit = DMatrix::from_fn(all.ncols(), kept.len(), |i, j| {
-            eigenvectors[(i, kept[j])] / eigenvalues[kept[j]].sqrt()
-        });
-        let all = all * unit;
-        let SymmetricEigen { eigenvectors, eigenvalues } =
-            SymmetricEigen::new(among(&whole.parts.stiffness, &all));
+        let SymmetricEigen { eigenvectors, eigenvalues } = own(&whole.parts.mass, &all);
+        let kept = (0..eigenvalues.len()).filter(|&k| eigenvalues[k] > 1e-10 * eigenvalues.amax());
+        let unit = |k: usize| combined(&all, &(eigenvectors.column(k) / eigenvalues[k].sqrt()));
+        let all: Vec<Vec<f64>> = kept.map(unit).collect();
+        let SymmetricEigen { eigenvectors, eigenvalues } = own(&whole.parts.stiffness, &all);
         let mut order: Vec<usize> = (0..eigenvalues.len()).collect();
         order.sort_by(|&a, &b| eigenvalues[a].total_cmp(&eigenvalues[b]));
-        let all = all * eigenvectors;
         for k in order {
             if eigenvalues[k] <= 0.0 {
                 return Err(ReductionError::Unstable {});
             }
-            let mut column = all.column(k).iter().copied().collect::<Vec<f64>>();
-            column.resize(whole.size, 0.0);
-            columns.push(column);
+            columns.push(combined(&all, &eigenvectors.column(k).into_owned()));
             frequencies.push(eigenvalues[k].sqrt() / std::f64::consts::TAU);
         }
         Ok(found.completeness == Completeness::Counted)
     }
 
+    /// Columnsᵀ matrix columns, for the values of a matrix on the pattern.
+    fn among(&self, values: &[f64], columns: &[Vec<f64>]) -> DMatrix<f64> {
+        let pattern = self.free.pattern();
+        let mut image = vec![0.0; self.free.layout().size()];
+        let mut matrix = DMatrix::zeros(columns.len(), columns.len());
+        for (j, column) in columns.iter().enumerate() {
+            pattern.multiply(values, column, &mut image);
+            for (i, other) in columns.iter().enumerate() {
+                matrix[(i, j)] = other.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>();
+            }
+        }
+        matrix
+    }
+
     /// Projects the matrices on the columns.
     fn projected(&self, whole: &Whole, columns: &[Vec<f64>], length: f64) -> ReducedMatrices {
-        let among = |values: &[f64]| {
-            let pattern = self.free.pattern();
-            let mut image = vec![0.0; whole.size];
-            let mut matrix = DMatrix::zeros(columns.len(), columns.len());
-            for (j, column) in columns.iter().enumerate() {
-                pattern.multiply(values, column, &mut image);
-                for (i, other) in columns.iter().enumerate() {
-                    matrix[(i, j)] = other.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>();
-                }
-            }
-            matrix
-        };
+        let among = |values: &[f64]| self.among(values, columns);
         let mass = among(&whole.parts.mass);
         let damping = among(&whole.parts.damping);
         let mut stiffness = among(&whole.parts.stiffness);
@@ -418,6 +406,15 @@ impl Assembly<'_> {
         }
         map
     }
+}
+
+/// The sum of columns by factors.
+fn combined(columns: &[Vec<f64>], factors: &DVector<f64>) -> Vec<f64> {
+    let mut sum = vec![0.0; columns.first().map_or(0, Vec::len)];
+    for (column, factor) in columns.iter().zip(factors) {
+        sum.iter_mut().zip(column).for_each(|(sum, own)| *sum += factor * own);
+    }
+    sum
 }
 
 /// The free assembly, linearised.

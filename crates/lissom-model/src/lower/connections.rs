@@ -99,7 +99,7 @@ fn joint(
         None => (ports::coordinates(component, builder, names)?, Cow::Borrowed(&component.parameters)),
     };
     if matches!(kind.build, Build::MeanOfSet) {
-        let (nodes, shares) = ports::with_shares(component, names)?;
+        let (nodes, shares) = ports::set_and_node(component, names)?;
         let attachment = JointAttachment { nodes, shares, ..JointAttachment::default() };
         let added = builder.add_joint_of_kind(name, kind, attachment, &parameters);
         return added.map(drop).map_err(|error| parameter_problem(component, &error));

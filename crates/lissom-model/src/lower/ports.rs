@@ -79,16 +79,16 @@ pub(super) fn of_sets(
     Ok(found[leading].iter().map(at_node).collect())
 }
 
-/// All nodes of a component's sets in their order, and their shares.
-pub(super) fn with_shares(component: &Component, names: &Names) -> Result<(NodesOfJoint, Vec<f64>), Problem> {
-    let mut all = (Vec::new(), Vec::new());
-    for own in &component.attachment.nodes {
-        for (node, share) in names.nodes(&own.node)? {
-            all.0.push((node, None));
-            all.1.push(share);
-        }
-    }
-    Ok(all)
+/// The nodes of a component's set with their shares, and after them the one node that it also names.
+pub(super) fn set_and_node(
+    component: &Component,
+    names: &Names,
+) -> Result<(NodesOfJoint, Vec<f64>), Problem> {
+    let [set, node] = component.attachment.nodes.as_slice() else { return Ok((Vec::new(), Vec::new())) };
+    let (mut nodes, shares): (NodesOfJoint, Vec<f64>) =
+        names.nodes(&set.node)?.into_iter().map(|(node, share)| ((node, None), share)).unzip();
+    nodes.push((names.node(&node.node)?, None));
+    Ok((nodes, shares))
 }
 
 /// Nodes of a set on which a component acts, each with its share; none if it acts on one node, or on something else.

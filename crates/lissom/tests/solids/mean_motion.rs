@@ -120,6 +120,11 @@ fn what_has_no_mean_rotation_is_named() {
     };
     let message = refused(&flange("block.line"));
     assert!(message.contains("on a line"), "{message}");
+    let ends = |tip: &str| format!("base = \"bar.west\"\ntip = \"{tip}\"");
+    let several = PENDULUM.replace(&ends("hub"), &ends("bar.east"));
+    assert_ne!(several, PENDULUM);
+    let message = refused(&several);
+    assert!(message.contains("one is needed"), "{message}");
     for base in ["block@1,0,0", "ground"] {
         let message = refused(&flange(base));
         assert!(

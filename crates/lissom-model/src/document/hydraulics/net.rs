@@ -197,14 +197,8 @@ impl<'c, 'a> Net<'c, 'a> {
     /// Adds a component of a part as the user's expression.
     pub(super) fn expression(&mut self, part: &Part<'_, '_, '_>, word: &str, value: Located<Formula>) {
         let name = Located::new(part.component(word), part.reader.name);
-        self.signals.push(SignalEntry {
-            name,
-            value,
-            table: None,
-            sampling: None,
-            delay: None,
-            filter: None,
-        });
+        let (table, sampling, delay, filter) = (None, None, None, None);
+        self.signals.push(SignalEntry { name, value, table, sampling, delay, filter });
     }
 
     fn add_signal(
@@ -215,14 +209,8 @@ impl<'c, 'a> Net<'c, 'a> {
     ) -> Option<()> {
         let value = Located::new(formula(template, terms)?, span);
         let name = Located::new(name, span);
-        self.signals.push(SignalEntry {
-            name,
-            value,
-            table: None,
-            sampling: None,
-            delay: None,
-            filter: None,
-        });
+        let (table, sampling, delay, filter) = (None, None, None, None);
+        self.signals.push(SignalEntry { name, value, table, sampling, delay, filter });
         Some(())
     }
 
@@ -278,9 +266,8 @@ impl<'c, 'a> Net<'c, 'a> {
                 (format!("q{k}"), Term::Name(own.flow.1.clone())),
             ]);
         }
-        let terms: Vec<(&str, Term)> = terms.iter().map(|(own, term)| (own.as_str(), term.clone())).collect();
         // Nodes have no connections of their own; their power follows when all are known.
-        if terms.is_empty() { Some(()) } else { self.signal(part, "power", (&template, &terms)) }
+        if terms.is_empty() { Some(()) } else { self.signal(part, "power", (&template, &borrowed(&terms))) }
     }
 
     /// Adds a load on the coordinate of a joint whose size is a signal of the part.
