@@ -136,8 +136,9 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
         Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
     };
     if version("valgrind").is_none() {
-        println!("valgrind is not installed: no instructions are counted");
-        return Ok(true);
+        let message =
+            "it is not installed: no instructions are counted; install the package `valgrind`".to_owned();
+        return Err(CountError::Program { program: "valgrind", message });
     }
     let compiler = version("rustc").unwrap_or_default();
     let names = names();
