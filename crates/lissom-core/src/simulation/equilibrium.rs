@@ -67,7 +67,7 @@ pub(crate) fn start_at_rest(
 }
 
 /// Names of the parts that can move freely at the positions of `state`.
-fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Subject> {
+pub(super) fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Subject> {
     let mut still = state.clone();
     for node in &mut still.kinematics.nodes {
         node.twist.fill(0.0);
@@ -113,7 +113,7 @@ pub fn at_rest(
     let (reached, doubts) = match stepped {
         Ok(_) => (reached, doubts),
         Err(error) => {
-            let relaxed = may_help(&error, &system, &state)
+            let relaxed = may_help(&error, &system, &state, settings.solver)
                 .then(|| relax(&system, &state, &settings, time, &mut 0))
                 .flatten();
             relaxed.ok_or_else(|| match free_motion(&system, &state, settings.solver) {

@@ -7,6 +7,10 @@
 
 use std::sync::Arc;
 
+use lissom_solver::SolverKind;
+
+use super::equilibrium::free_motion;
+use crate::elements::Spring;
 use crate::errors::StepError;
 use crate::errors::Warning;
 use crate::errors::step_error::LOADS_BEFORE_DRIVES;
@@ -41,12 +45,15 @@ const FIRST: f64 = 10.0;
 const ITERATIONS: usize = 15;
 
 /// Whether relaxation may find the equilibrium after a load step with this failure.
-pub(crate) fn may_help(error: &StepError, system: &System, state: &State) -> bool {
+pub(crate) fn may_help(error: &StepError, system: &System, state: &State, solver: &SolverKind) -> bool {
     match error {
         StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. } => true,
-        // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are rejected.
+        // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are rejected;
+        // an iterate far from the start may be singular without being one.
         StepError::ZeroPivot { .. } => {
-            system.elements_with(|own| own.spring).any(|spring| spring.slack(&state.kinematics).is_some())
+            let is_slack = |spring: &dyn Spring| spring.slack(&state.kinematics).is_some();
+            system.elements_with(|own| own.spring).any(is_slack)
+                || free_motion(system, state, solver).is_none()
         }
         _ => false,
     }
@@ -125,7 +132,10 @@ impl Simulation {
     /// failed with `error`.
     pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
         let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
-        if !(self.origin.may_relax && is_first && may_help(error, &self.system, &self.state)) {
+        if !(self.origin.may_relax
+            && is_first
+            && may_help(error, &self.system, &self.state, self.settings.solver))
+        {
             return Err(error.clone());
         }
         let time = self.state.kinematics.time + size;
