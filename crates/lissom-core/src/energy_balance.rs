@@ -133,7 +133,7 @@ impl EnergyBalance {
         let speed = interval.map_or(0.0, |interval| round_off::INCREMENT * representative.length / interval);
         let mut energy_balance = Self {
             energy,
-            most: energy.kinetic + energy.strain,
+            most: energy.kinetic + energy.strain.abs(),
             potential: [energy.potential; 2],
             floor: representative.stiffness * place * place + representative.mass * speed * speed,
             ..Self::default()
@@ -223,7 +223,7 @@ impl EnergyBalance {
         let is_motion = of_weight.is_none();
         self.energy = energy;
         self.steps_since_check = 0;
-        self.most = self.most.max(energy.kinetic + energy.strain);
+        self.most = self.most.max(energy.kinetic + energy.strain.abs());
         self.potential = [self.potential[0].min(energy.potential), self.potential[1].max(energy.potential)];
         let balance = self.balance(is_motion);
         self.surplus = self.surplus.max(balance - self.least_balance);

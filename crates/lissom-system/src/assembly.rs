@@ -187,7 +187,9 @@ impl System {
 
     /// Elements whose forces may depend on time.
     fn batches_over_time(&self) -> impl Iterator<Item = &Arc<dyn AnyBatch>> {
-        self.batches.iter().filter(|batch| batch.capabilities().load.is_some())
+        let is_active =
+            |batch: &&Arc<dyn AnyBatch>| batch.elements_with(|own| own.load).any(|load| load.is_active());
+        self.batches.iter().filter(is_active)
     }
 
     /// Forces of those elements that may depend on time.

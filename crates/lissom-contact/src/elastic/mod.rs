@@ -523,12 +523,11 @@ impl Element for Contact {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        let load = self.point.surface.map(|_| self as &dyn Load);
         Capabilities {
             spring: Some(self),
             laws: Some(self),
             strain: Some(self),
-            load,
+            load: Some(self),
             ..Capabilities::default()
         }
     }
@@ -536,6 +535,10 @@ impl Element for Contact {
 
 /// What drives a moving surface works against its friction.
 impl Load for Contact {
+    fn is_active(&self) -> bool {
+        self.point.surface.is_some()
+    }
+
     fn power(&self, at: &Kinematics) -> f64 {
         if self.is_apart(at) {
             return 0.0;
