@@ -79,7 +79,7 @@ fn unit(quantity: Quantity, radian: f64) -> f64 {
 
 /// Size of a model that does not depend on its distance from the origin, where the ground's node is: that counts at the mean location of
 /// its joints, if there are any. 1 for a single point mass.
-fn extent(system: &System, at: &Kinematics) -> f64 {
+pub(crate) fn extent(system: &System, at: &Kinematics) -> f64 {
     let on_ground =
         system.joints().iter().flat_map(|joint| &joint.frames).filter(|frame| frame.node == GROUND);
     let (sum, number) = on_ground.fold((lissom_motion::Vector3::zeros(), 0.0_f64), |(sum, number), frame| {

@@ -19,12 +19,17 @@
 //! are examined before a step, which ends at their jumps; laws of the motion afterwards. The second derivative of a function of time
 //! is bounded over many steps at once.
 
+use std::f64::consts::PI;
+
+use lissom_motion::{Rotation, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::integrator::dense;
+use crate::kinematics::{Kinematics, Layout, Quantity};
 use crate::law::{EVERYTHING, Enclosure, Interval, NARROW_BOUNDS, ScalarLaw, hull};
 use crate::registry::{Function, TimeFunction};
 use crate::round_off;
+use crate::scaling::extent;
 use crate::signals::MAX_ARGUMENTS;
 use crate::system::{State, System};
 
@@ -46,6 +51,8 @@ const ARGUMENT_DEPARTURE: f64 = 0.05;
 const SPAN: f64 = 32.0;
 /// Number of future steps that contribute to the magnitude of an unbounded law.
 const STEPS_AHEAD: u32 = 64;
+/// Angle between the phases of neighbouring numbers of a disturbed motion, that no sum of a few follows a pattern [rad].
+const PHASE: f64 = 2.4;
 /// Step fractions at which arguments are evaluated.
 const SAMPLES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
 
@@ -359,6 +366,10 @@ pub(crate) struct Laws {
     cubics: Vec<Cubic>,
     /// For each law of a signal or an element the index of the first one of its group, as its own where it has none.
     leaders: Vec<usize>,
+    /// Length of the model [m].
+    length: f64,
+    /// Changes of the values of all laws by the round-off of the motion.
+    noise: Vec<f64>,
 }
 
 impl Laws {
@@ -388,7 +399,8 @@ impl Laws {
         let first = system.signals().names_of_laws().len();
         let of_elements = system.leaders_of_laws(&start.kinematics).into_iter().map(|leader| first + leader);
         let leaders = (0..first).chain(of_elements).collect();
-        Self { magnitudes, between, arguments, middle, cubics, leaders }
+        let (length, noise) = (extent(system, &start.kinematics), Vec::new());
+        Self { magnitudes, between, arguments, middle, cubics, leaders, length, noise }
     }
 
     /// The magnitude of a function of time, including its values at the ends of a step [s].
@@ -440,7 +452,7 @@ impl Laws {
             };
             (longest < 1.0).then_some(longest)
         };
-        self.examine(system, step, find).map_or(1.0, |(_, longest)| longest)
+        self.examine(system, step, part, find).map_or(1.0, |(_, longest)| longest)
     }
 
     /// The index of a law of the motion that a solved step of planned size does not resolve: a smooth one that its ends do not
@@ -455,7 +467,7 @@ impl Laws {
             };
             is_found.then_some(0.0)
         };
-        self.examine(system, step, find).map(|(index, _)| index)
+        self.examine(system, step, DEPARTURE, find).map(|(index, _)| index)
     }
 
     /// Fits the cubics of all arguments of laws of the motion over a solved step. Returns whether there are any laws.
@@ -490,22 +502,24 @@ impl Laws {
     }
 
     /// The law of the motion with the smallest step fraction that `find` returns for its course and its magnitude, with its index.
-    /// The arguments of such a law are verified: if they jump, such as angles at half a turn, cubics do not represent them, and the law
-    /// is skipped.
+    /// What the round-off of the motion explains to this `part` is no feature. The arguments of such a law are verified: if they jump,
+    /// such as angles at half a turn, cubics do not represent them, and the law is skipped.
     fn examine(
         &mut self,
         system: &System,
         (from, to): (&State, &State),
+        part: f64,
         find: impl Fn(&Course<'_>, f64) -> Option<f64>,
     ) -> Option<(usize, f64)> {
         if !self.sample(system, (from, to)) {
             return None;
         }
-        let Self { magnitudes, between, middle, cubics, leaders, .. } = self;
+        let Self { magnitudes, between, middle, cubics, leaders, noise, length, .. } = self;
         let leader_of = |index: usize| leaders.get(index).copied().unwrap_or(index);
         let time = [from.kinematics.time, to.kinematics.time - from.kinematics.time];
         let (mut next, mut index, mut first) = (0, 0, None);
         middle.clear();
+        noise.clear();
         if magnitudes.laws.is_empty() {
             let mut next = 0;
             system.laws(&to.kinematics, &mut |law, values| {
@@ -546,7 +560,15 @@ impl Laws {
                 magnitude.value = magnitude.value.max(course.magnitude(0.0));
                 found = find(&course, magnitude.value);
             }
-            let Some(share) = found else { return };
+            let Some(mut share) = found else { return };
+            if noise.is_empty() {
+                add_noise(system, [from, to], (*length, time[1]), between, noise);
+            }
+            let least = noise[index - 1] / part;
+            if least > magnitude.value.max(of_flight) {
+                let Some(found) = find(&course, least) else { return };
+                share = found;
+            }
             if middle.is_empty() {
                 dense::at_share(from, to, 0.5, between);
                 system.laws(&between.kinematics, &mut |_, values| middle.extend_from_slice(values));
@@ -560,6 +582,63 @@ impl Laws {
             }
         });
         first
+    }
+}
+
+/// Changes of the values of all laws at two states if their motions change by their round-off, for a model of this `length` [m] and a step of
+/// `size` [s]. At rest the values of a law, such as the flow between equal pressures, are nothing else.
+fn add_noise(
+    system: &System,
+    ends: [&State; 2],
+    (length, size): (f64, f64),
+    moved: &mut State,
+    noise: &mut Vec<f64>,
+) {
+    let values = |at: &Kinematics, visit: &mut dyn FnMut(usize, f64)| {
+        let mut index = 0;
+        system.laws(at, &mut |law, arguments| {
+            visit(index, law.value(at.time, arguments));
+            index += 1;
+        });
+    };
+    let mut exact = Vec::new();
+    for end in ends {
+        exact.clear();
+        values(&end.kinematics, &mut |_, value| exact.push(value));
+        noise.resize(exact.len(), 0.0);
+        for phase in [0.0, 0.5 * PI] {
+            moved.clone_from(end);
+            disturb(system.layout(), &mut moved.kinematics, (length, size), phase);
+            values(&moved.kinematics, &mut |index, value| {
+                let change = (value - exact[index]).abs();
+                noise[index] += if change.is_finite() { change } else { 0.0 };
+            });
+        }
+    }
+}
+
+/// Changes every number of a motion by as much as a step does not determine, so that of two phases that differ by a quarter of a turn one is not small.
+fn disturb(layout: &Layout, at: &mut Kinematics, (length, size): (f64, f64), mut phase: f64) {
+    let mut by = |scale: f64| {
+        phase += PHASE;
+        round_off::INCREMENT * scale * phase.sin()
+    };
+    for node in at.nodes.iter_mut().skip(1) {
+        let far = length.max(node.frame.position.amax());
+        node.frame.position += Vector3::from_fn(|_, _| by(far));
+        node.frame.rotation = node.frame.rotation * Rotation::exponential(&Vector3::from_fn(|_, _| by(1.0)));
+        node.twist += Vector6::from_fn(|k, _| by(if k < 3 { far } else { 1.0 } / size));
+    }
+    let mut states = layout.states.iter().peekable();
+    for (coordinate, motion) in layout.coordinates().zip(&mut at.coordinates) {
+        let scale = match states.next_if(|(state, _)| *state == coordinate) {
+            Some(&(_, magnitude)) => magnitude,
+            None if layout.coordinate_quantity(coordinate) == Quantity::Length => length,
+            None => 1.0,
+        };
+        let scale = scale.max(motion.value.abs());
+        motion.value += by(scale);
+        motion.rate += by(scale / size);
     }
 }
 
