@@ -70,16 +70,22 @@ pub struct Meeting {
     pub frames: [Motion; 2],
 }
 
-/// The points at which two solids may touch; none if that is not available.
+/// The points at which two solids may touch; none if that is not available. With `stands` ends of cylinders have fixed points beside
+/// their rims, whose nearest point runs round where they lie flat.
 ///
 /// # Errors
 /// If one is a mesh that encloses no solid.
-pub fn meetings(solids: [&PlacedSolid; 2]) -> Result<Option<Vec<Meeting>>, MeshError> {
+pub fn meetings(solids: [&PlacedSolid; 2], stands: bool) -> Result<Option<Vec<Meeting>>, MeshError> {
     let Some(((.., parts, back), base)) = found(solids.map(|solid| solid.form.kind())) else {
         return Ok(None);
     };
     let mut ways = vec![([base, 1 - base], *parts)];
     ways.extend(back.map(|back| ([1 - base, base], back)));
+    if stands {
+        let have_ends =
+            ways.clone().into_iter().filter(|(_, parts)| matches!(parts, Parts::Rims | Parts::Round));
+        ways.extend(have_ends.map(|(sides, _)| (sides, Parts::Stands)));
+    }
     ways.sort_by_key(|(sides, _)| *sides);
     let is_rounded = back.is_some() || matches!(parts, Parts::Round | Parts::Whole);
     let mut all = Vec::new();

@@ -1,5 +1,6 @@
 //! Parts of forms with which they touch others.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use lissom_motion::{Motion, Rotation, Vector3};
@@ -13,6 +14,11 @@ use crate::geometry::surfaces::{Mesh, MeshError, Surface};
 /// Radius of edges and rims where both solids have some, of the shortest side: edges that cross then have a direction
 /// between them, and faces of one width, flush with each other, touch.
 const EDGE_ROUNDING: f64 = 0.02;
+
+/// Number of points on which an end of a cylinder stands.
+const STANDS: usize = 8;
+/// Their radius, of that of the cylinder: on its rim they would touch where it rolls.
+const STAND_RADIUS: f64 = 0.95;
 
 /// Parts of a tip that touch a base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +37,8 @@ pub(super) enum Parts {
     Rims,
     /// Rims and crowned side of a cylinder.
     Round,
+    /// Points on the ends of a cylinder, which do not run round its rims.
+    Stands,
     /// A smooth outline.
     Curve,
     /// An ellipsoid.
@@ -47,6 +55,7 @@ impl Parts {
             Self::Edges => "edges",
             Self::Rims => "both rims",
             Self::Round => "side and rims",
+            Self::Stands => "points of both ends",
             Self::Curve => "curve",
         }
     }
@@ -121,6 +130,15 @@ pub(super) fn touching(
                 all.push((sum(side, (round, 2.0 * outer)), Motion::IDENTITY));
             }
             all
+        }
+        (Parts::Stands, Form::Solid(Solid::Tube { inner, outer, length, .. })) => {
+            let radius = (STAND_RADIUS * outer).max(0.5 * (inner + outer)) - round;
+            let point = |index: usize| {
+                let (sine, cosine) = (TAU * (index / 2) as f64 / STANDS as f64).sin_cos();
+                let height = signed(index, 0.5 * length - round);
+                (ball(round), Motion::translation(Vector3::new(radius * cosine, radius * sine, height)))
+            };
+            (0..2 * STANDS).map(point).collect()
         }
         (Parts::Curve, Form::Outline(outline)) => one(line(Arc::new(outline.curve().clone()), 0.0)),
         (Parts::Whole, Form::Solid(Solid::Ellipsoid(axes))) => {

@@ -106,7 +106,7 @@ impl ContactSet {
         });
         let mut all = Vec::new();
         for solids in one.iter().flat_map(|one| other.iter().map(move |other| [one, other])) {
-            let Some(found) = meetings(solids)? else { return Ok(None) };
+            let Some(found) = meetings(solids, true)? else { return Ok(None) };
             let mut law = TouchLaw { surface, ..rule.law };
             if let Some(materials) = rule.materials {
                 let curvature = solids.map(|solid| solid.form.curvature());

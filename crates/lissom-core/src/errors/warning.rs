@@ -557,6 +557,22 @@ diagnostics! {
             meaning: "Two shapes in contact penetrate each other by more than half of their size; the contact force is no longer meaningful, \
                 and the parts may pass through each other.",
         }
+        /// A contact of a set is deeper than its force explains.
+        ContactSunk {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of one of the parts.
+            part: String,
+            /// Penetration [m].
+            depth: f64,
+        } => "contact-sunk" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at t = {time} s a contact of `{part}` is {depth:.3e} m deep, more than ten times deeper than its force explains"),
+            remedy: "use a shorter `step`",
+            meaning: "A penetration that appears within a step, such as that of an edge whose nearest point jumps, is not pressed apart, because \
+                that would supply energy. Here it is more than ten times the penetration by the force, so that the part rests too deep.",
+        }
         /// A ball in a hollow of a shape touches two sides of it.
         ContactInHollow {
             /// When it was first detected [s].

@@ -3,10 +3,18 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::errors::{Warning, warn};
 use crate::kinematics::{GROUND, Kinematics, NodeId};
-use crate::system::{State, System};
+use crate::system::{State, System, Touch};
 
 /// Largest plausible penetration at the start, as a fraction of half the size of the two solids or of the range of a stop.
 const OVERLAP: f64 = 0.1;
+
+/// Penetration that no force explains, as a multiple of the one that a force explains, at which it is reported.
+const UNEXPLAINED: f64 = 10.0;
+/// The least of those, as a fraction of the size of both solids: forces of parts that lift off vanish.
+const EXPLAINED: f64 = 1e-4;
+
+/// Change of a penetration in a step, relative to it, below which the parts rest.
+const AT_REST: f64 = 1e-3;
 
 /// Reports the first contact that is too deep. Has no state.
 struct Penetration;
@@ -24,7 +32,25 @@ impl Monitor for Penetration {
         if let Some(warning) = too_deep(step.problem.system, step.end) {
             warn(warnings, warning);
         }
+        warnings_of_sunk(step, warnings);
     }
+}
+
+/// Reports the first touch of a set that rests deeper than its force explains: what appears within a step is not pressed apart.
+fn warnings_of_sunk(step: &Accepted<'_>, warnings: &mut Vec<Warning>) {
+    let rests = |touch: &Touch| {
+        let before = step.start.touches.iter().find(|before| before.key == touch.key);
+        before.is_some_and(|before| (touch.gap - before.gap).abs() < AT_REST * touch.relief)
+    };
+    let is_sunk = |touch: &&Touch| {
+        let explained = (-touch.gap - touch.relief).max(EXPLAINED * touch.deepest);
+        touch.relief > UNEXPLAINED * explained && rests(touch)
+    };
+    let Some(touch) = step.end.touches.iter().find(is_sunk) else { return };
+    let system = step.problem.system;
+    let node = system.contacts().parts[touch.key.parts[1] as usize].node;
+    let part = system.layout().name_of_node(node).to_owned();
+    warn(warnings, Warning::ContactSunk { time: step.end.kinematics.time, part, depth: -touch.gap });
 }
 
 /// The first contact that is deeper than half of the size of its solids.

@@ -11,7 +11,7 @@ use lissom_mechanics::law::hull;
 fn pairs() -> Vec<([FormKind; 2], Arc<dyn Pair>)> {
     let of = |kinds: [FormKind; 2]| {
         let solids = kinds.map(|kind| PlacedSolid { form: sample(kind), frame: Motion::IDENTITY });
-        let found = meetings(solids.each_ref()).expect("closed").expect("in the table");
+        let found = meetings(solids.each_ref(), false).expect("closed").expect("in the table");
         [found.first(), found.last()].map(|own| (kinds, own.expect("they have parts").pair.clone()))
     };
     PAIRS.iter().flat_map(|row| row.0.iter().map(|base| [*base, row.1])).flat_map(of).collect()

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_motion::{Vector3, Vector6};
+use lissom_motion::{Motion, Vector3, Vector6};
 
 use super::free_path::{Encounter, FreePath};
 use super::touch_point::{Phase, Place, StepOfPoint, TouchPoint};
 use crate::contact::forms::Meeting;
 use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting};
-use crate::kinematics::{GROUND, Kinematics, split};
+use crate::kinematics::{GROUND, Kinematics, NodeId, split};
 use crate::scaling::StageMotion;
 use crate::system::{State, System, Touch, TouchKey};
 
@@ -19,6 +19,14 @@ const TRAVEL_SHARE: f64 = 1.3;
 pub(super) const SHORT: f64 = 0.01;
 /// Path over the radius from which a step ends at the first touch.
 const LONG: f64 = 0.1;
+/// Cosine between normals that are one.
+const ALIKE: f64 = 1.0 - 1e-6;
+/// Overlap over the path, and over the radius of the smaller part, at which a surface is no obstacle: edges are crowned by as much.
+const FLUSH: [f64; 2] = [1e-3, 2e-4];
+/// Cosine between a surface and one that is flush with it, at its rounded edge.
+const LEVEL: f64 = 0.97;
+/// Number of places on a path at which an obstacle is looked for.
+const LOOKS: u32 = 4;
 /// Shares of a step between which it is divided.
 const DIVIDED: [f64; 2] = [0.02, 0.98];
 
@@ -150,6 +158,7 @@ impl NearPoints {
                 StepOfPoint { size, radius, planned: self.planned, compliance, is_first: self.is_first };
             let frames = nodes.map(|node| start.nodes[node].frame);
             let reach = travel[base] + travel[tip];
+            let first = points.len();
             for (point, (meeting, law)) in own.iter().enumerate() {
                 let key = TouchKey { rule, parts, point: point as u32 };
                 while touches.next_if(|touch| touch.key.rank() < key.rank()).is_some() {}
@@ -164,6 +173,15 @@ impl NearPoints {
                     }
                 }
                 points.push(TouchPoint::at((key, meeting, law), nodes, (start, step), (place, before)));
+            }
+            if set.parts[base].solids.len() * set.parts[tip].solids.len() > 1 {
+                let hidden = hidden(&points[first..], own, (start, nodes), [size, radius], self.is_first);
+                let mut all = hidden.into_iter();
+                let mut index = 0;
+                points.retain(|_| {
+                    index += 1;
+                    index <= first || !all.next().unwrap_or(false)
+                });
             }
         }
     }
@@ -236,6 +254,57 @@ impl NearPoints {
         }
         has_left
     }
+}
+
+/// Which of the new points of two parts with several solids are no obstacles: those that a part meets only because it is within the
+/// surface of another solid, on which it rests, as at a seam between flush faces. The normal there is that of an edge. Without this
+/// penetration nothing is in its way along this surface.
+fn hidden(
+    points: &[TouchPoint],
+    meetings: &[PlacedMeeting],
+    (start, nodes): (&Kinematics, [NodeId; 2]),
+    [size, radius]: [f64; 2],
+    is_first: bool,
+) -> Vec<bool> {
+    let rests = |point: &&TouchPoint| point.phase == Phase::Lasting || point.gap() < FLUSH[1] * radius;
+    if points.iter().all(|point| point.phase == Phase::Lasting) || !points.iter().any(|own| rests(&own)) {
+        return Vec::new();
+    }
+    let frames = nodes.map(|node| start.nodes[node].frame);
+    let is_hidden = |point: &TouchPoint| {
+        let (meeting, _) = &meetings[point.key.point as usize];
+        // The path of a ball is followed.
+        if point.phase == Phase::Lasting || is_round(meeting) || is_first && point.gap() <= 0.0 {
+            return false;
+        }
+        let [normal, velocity] = point.motion_of_second(start, nodes);
+        points.iter().filter(rests).any(|support| {
+            let [along, _] = support.motion_of_second(start, nodes);
+            if along.dot(&normal) > ALIKE {
+                return false;
+            }
+            let path = size * (velocity - velocity.dot(&along).min(0.0) * along);
+            let most = FLUSH[0] * path.norm() + FLUSH[1] * radius;
+            if point.gap() + 2.0 * normal.dot(&path).min(size * normal.dot(&velocity)) >= most {
+                return false;
+            }
+            let alike = points
+                .iter()
+                .filter(rests)
+                .filter(|own| own.motion_of_second(start, nodes)[0].dot(&along) > ALIKE);
+            let depth = alike.map(|own| -own.gap()).fold(0.0, f64::max);
+            (0..=LOOKS).all(|look| {
+                let shift = depth * along + f64::from(look) / f64::from(LOOKS) * path;
+                let [first, second] = frames;
+                let moved = Motion::new(second.rotation, second.position + shift);
+                let Some(place) = Place::of(meeting, [first, moved], -FLUSH[0] * path.norm()) else {
+                    return true;
+                };
+                place.gap > -most && place.normal(meeting).dot(&along) > LEVEL
+            })
+        })
+    };
+    points.iter().map(is_hidden).collect()
 }
 
 /// Whether a point is the centre of a ball.

@@ -92,6 +92,12 @@ impl Place {
         Some(Self { axes: axes_of(&normal), point, arms, gap: gap.value, deepest: meeting.pair.deepest() })
     }
 
+    /// Normal in inertial axes towards the second of both parts.
+    pub(crate) fn normal(&self, meeting: &Meeting) -> Vector3 {
+        let normal = self.axes.row(2).transpose();
+        if meeting.sides == [1, 0] { -normal } else { normal }
+    }
+
     /// Velocity of the tip's point relative to the base's in the axes of the point, for velocities and angular velocities of both parts in
     /// inertial axes [m/s].
     pub(crate) fn relative_velocity(&self, meeting: &Meeting, twists: [[Vector3; 2]; 2]) -> Vector3 {
@@ -279,6 +285,16 @@ impl TouchPoint {
             motion.velocity_at(&motion.frame.rotation.apply_inverse(&self.place.arms[k]))
         };
         self.place.axes * (of(1) - of(0)) - self.drift()
+    }
+
+    /// Normal in inertial axes towards the second of both parts with these nodes, and its velocity relative to the first [m/s].
+    pub(crate) fn motion_of_second(&self, at: &Kinematics, nodes: [NodeId; 2]) -> [Vector3; 2] {
+        let normal = self.place.axes.row(2).transpose();
+        let of = |k: usize| {
+            let motion = &at.nodes[nodes[k]];
+            motion.velocity_at(&motion.frame.inverse().transform_point(&self.place.point))
+        };
+        [if self.is_reversed { -normal } else { normal }, of(1) - of(0)]
     }
 
     /// Velocity of a moving surface, in the axes of the point [m/s].

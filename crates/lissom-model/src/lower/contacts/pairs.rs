@@ -76,7 +76,7 @@ pub(super) fn points_of_solids<'d>(
 /// The points at which two solids of a contact may touch.
 pub(super) fn meetings_of(entry: &ContactEntry, solids: [&PlacedSolid; 2]) -> Result<Vec<Meeting>, Problem> {
     let name = &entry.name.value;
-    let found = meetings(solids).map_err(|error| {
+    let found = meetings(solids, false).map_err(|error| {
         let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
         Problem::error(entry.name.span, message).help("repair the file, or use solids that have its shape")
     })?;
