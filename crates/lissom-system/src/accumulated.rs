@@ -57,7 +57,10 @@ impl AcceptedStep<'_> {
     pub fn work_of_element(&self, element: ElementId) -> f64 {
         let (start, end) = (&self.start.kinematics, &self.end.kinematics);
         let Some(within) = self.within else { return self.system.work_of(element, start, end) };
-        self.integral(within, |state| self.system.power(element, &state.kinematics))
+        let bristle = self.system.element(element).and_then(|element| element.capabilities().bristle);
+        bristle
+            .and_then(|bristle| bristle.unresolved_work(start, end))
+            .unwrap_or_else(|| self.integral(within, |state| self.system.power(element, &state.kinematics)))
     }
 
     /// Work of a drive of a coordinate [J]: by Gaussian quadrature if multipliers within the step are available, otherwise for a force

@@ -294,6 +294,14 @@ fn begin_motion(
     warnings.extend(monitors::overlap(system, &state.kinematics));
     warnings.extend(monitors::beyond_stop(system, &state.kinematics));
     warnings.extend(monitors::slack_rope(system, &state.kinematics));
+    if settings.control.is_none() {
+        for bristle in system.elements_with(|own| own.bristle) {
+            if let Some((deflection, steady)) = bristle.steady_at_start(&state.kinematics, settings.step_size)
+            {
+                state.kinematics.coordinates[deflection].value = steady;
+            }
+        }
+    }
     settle(system, state, &mut initial, settings)?;
     let held_values = may_jump(system, state).then_some(initial);
     Ok((velocity_correction, held_values))

@@ -11,7 +11,7 @@
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Capabilities, Element, Energy, Spring, StrainSlopes, Tangents, Unknowns};
+use super::{Bristle, Capabilities, Element, Energy, Spring, StrainSlopes, Tangents, Unknowns};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::ports::Ports;
 use crate::registry::ParameterType::{NotNegative, Positive};
@@ -20,6 +20,13 @@ use crate::signals::measurement::Gradient;
 
 /// Default deflection at which the bristle slips [rad, m].
 const DEFLECTION: f64 = 1e-4;
+/// Path of the first step over the deflection at slip beyond which a bristle begins in its steady state: a shorter step resolves a part
+/// of the way there.
+const SUDDEN_START: f64 = 20.0;
+/// Path of a step over the deflection at slip beyond which stages do not resolve the bristle.
+const UNRESOLVED: f64 = 0.3;
+/// Distance of the deflection from that of steady sliding, relative to it, below which its work is that of stages.
+const STEADY: f64 = 1e-3;
 
 /// Registry entry of friction on a rotation.
 pub const TORSIONAL: ElementKind = ElementKind {
@@ -137,7 +144,13 @@ impl Element for Friction {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), strain: Some(self), ..Capabilities::default() }
+        let (spring, strain, bristle): (&dyn Spring, &dyn StrainSlopes, &dyn Bristle) = (self, self, self);
+        Capabilities {
+            spring: Some(spring),
+            strain: Some(strain),
+            bristle: Some(bristle),
+            ..Capabilities::default()
+        }
     }
 }
 
@@ -157,6 +170,37 @@ impl Spring for Friction {
         let ([value, rate], [deflection, deflecting]) = (Gradient::of_unknown(0), Gradient::of_unknown(1));
         let elastic = Gradient::zero().plus(self.stiffness, &deflection).plus(self.damping, &deflecting);
         [value, rate, elastic.plus(self.viscous, &rate)]
+    }
+}
+
+impl Bristle for Friction {
+    fn steady_at_start(&self, at: &Kinematics, size: f64) -> Option<(CoordinateId, f64)> {
+        let [coordinate, bristle] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
+        let steady = self.limit(coordinate.rate).0 / self.stiffness * coordinate.rate.signum();
+        let is_sudden = bristle.value == 0.0 && size * coordinate.rate.abs() > SUDDEN_START * steady.abs();
+        is_sudden.then_some((self.coordinates[1], steady))
+    }
+
+    /// With the path s of the coordinate in one direction, the deflection z₀ at its start and that of steady sliding z_s = g/σ₀:
+    ///
+    /// ```text
+    /// z(s) = z_s + (z₀ - z_s) exp(-s/z_s)
+    /// ```
+    fn unresolved_work(&self, from: &Kinematics, to: &Kinematics) -> Option<f64> {
+        let [start, end] = [from, to].map(|at| at.coordinates[self.coordinates[0]]);
+        let change = end.value - start.value;
+        let path = change.abs();
+        let steady = self.limit(0.5 * (start.rate + end.rate)).0 / self.stiffness;
+        let first = from.coordinates[self.coordinates[1]].value * change.signum();
+        let turns = start.rate * change < 0.0 || end.rate * change < 0.0;
+        if turns || path <= UNRESOLVED * steady || (first - steady).abs() <= STEADY * steady {
+            return None;
+        }
+        let share = -(-path / steady).exp_m1();
+        let elastic = self.stiffness * (steady * path + (first - steady) * steady * share);
+        let damped = self.damping * start.rate.abs() * (steady - first) * share;
+        let squares = (start.rate * start.rate + start.rate * end.rate + end.rate * end.rate) / 3.0;
+        Some(-elastic - damped - self.viscous * (to.time - from.time) * squares)
     }
 }
 

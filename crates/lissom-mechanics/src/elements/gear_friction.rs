@@ -12,8 +12,12 @@
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::{Capabilities, Element, Load, Tangents, Unknowns};
+use super::{Bristle, Capabilities, Element, Load, Tangents, Unknowns};
 use crate::kinematics::{CoordinateId, Kinematics};
+
+/// Path of the first step over the deflection at slip beyond which a bristle begins in its steady state: with an undeflected one, normal
+/// forces at the start that depend on its rate may have no solution.
+const SUDDEN_START: f64 = 1.0;
 
 /// Friction of a gear.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +82,20 @@ impl Element for GearFriction {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { load: Some(self), ..Capabilities::default() }
+        Capabilities { load: Some(self), bristle: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Bristle for GearFriction {
+    fn steady_at_start(&self, at: &Kinematics, size: f64) -> Option<(CoordinateId, f64)> {
+        let [coordinate, bristle] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
+        let is_sudden = bristle.value == 0.0 && size * coordinate.rate.abs() > SUDDEN_START * self.deflection;
+        is_sudden.then_some((self.coordinates[1], self.deflection * coordinate.rate.signum()))
+    }
+
+    /// The force follows from multipliers, which are known at stages alone.
+    fn unresolved_work(&self, _from: &Kinematics, _to: &Kinematics) -> Option<f64> {
+        None
     }
 }
 

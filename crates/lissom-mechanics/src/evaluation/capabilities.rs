@@ -37,6 +37,8 @@ pub struct Capabilities<'e> {
     pub strain: Option<&'e dyn StrainSlopes>,
     /// Deformations of an element with geometric stiffness.
     pub deformation: Option<&'e dyn Deformable>,
+    /// Friction by a bristle, whose deflection may change faster than steps resolve.
+    pub bristle: Option<&'e dyn Bristle>,
     /// Inertia besides that of bodies, which is stored in the system.
     pub inertia: Option<&'e dyn OwnInertia>,
     /// Whether it is the inertia of a body, whose forces depend on positions only through the axes in which they are
@@ -160,6 +162,15 @@ pub trait Spring: Element {
     fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {
         None
     }
+}
+
+/// Friction by a bristle, a first-order state that reaches its steady deflection along a path of a few deflections at slip.
+pub trait Bristle: Element {
+    /// The state, and its steady deflection if a first step of `size` [s] is far longer than the bristle takes from zero to it.
+    fn steady_at_start(&self, at: &Kinematics, size: f64) -> Option<(CoordinateId, f64)>;
+
+    /// Work on the rest of the model in a step whose stages do not resolve the deflection [J]; none if they do.
+    fn unresolved_work(&self, from: &Kinematics, to: &Kinematics) -> Option<f64>;
 }
 
 /// Elements whose forces follow from functions of a few numbers, with kinks or jumps at which steps end. They have
