@@ -13,6 +13,7 @@ mod count;
 mod curves;
 mod defaults;
 mod digits;
+mod exact;
 mod forces;
 mod formula;
 mod fuzz;
@@ -93,6 +94,8 @@ enum Chore {
     Loops(cases::CaseArguments),
     /// Try random solids in contact, compliant and rigid: none may gain energy or penetrate
     Contacts(contacts::ContactsArguments),
+    /// Try random models with exact results: solids at rest, seams, belts, friction of rotors, laws at rest
+    Exact(cases::CaseArguments),
     /// Compare reactions and accelerations of random mechanisms with those of a finer solution
     Forces(forces::ForcesArguments),
     /// Read model files and expressions that are damaged by chance: each is read or rejected with its position
@@ -244,6 +247,7 @@ fn main() -> ExitCode {
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
         Chore::Forces(arguments) => Ok(forces::forces(&arguments)),
         Chore::Contacts(arguments) => Ok(contacts::contacts(&arguments)),
+        Chore::Exact(arguments) => Ok(exact::exact(&arguments)),
         Chore::Collisions(arguments) => Ok(collisions::collisions(&arguments)),
         Chore::Loops(arguments) => Ok(loops::loops(&arguments)),
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),

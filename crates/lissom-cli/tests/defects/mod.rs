@@ -3,6 +3,7 @@
 //! `models/`; the other modules test variations.
 
 mod analyses;
+mod at_rest;
 mod clocks;
 mod jumps;
 mod loops;

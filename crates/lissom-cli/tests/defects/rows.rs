@@ -16,6 +16,7 @@ use crate::support::{Folder, lissom};
 #[test]
 fn every_model_has_a_row() {
     let sources = [
+        include_str!("at_rest.rs"),
         include_str!("ordinary.rs"),
         include_str!("redundant_loops.rs"),
         include_str!("rows.rs"),
