@@ -334,6 +334,9 @@ impl Unit {
 
     /// Sets variables; integers are rounded, and booleans are true from 0.5 on.
     pub(crate) fn set(&mut self, variables: &[Variable], values: &[f64]) -> Result<(), String> {
+        if variables.len() != values.len() {
+            return Err(format!("it has {} inputs, and receives {}", variables.len(), values.len()));
+        }
         let is_second = self.standard == Standard::Fmi2;
         if let Some((places, references)) = Self::of_type(variables, VariableType::Real) {
             let numbers: Vec<f64> = places.iter().map(|&place| values[place]).collect();

@@ -21,7 +21,7 @@ fn description(version: u8, kind: &str, [states, indicators]: [usize; 2], flags:
         }
     };
     let real = ["Real", "Float64"];
-    let is_discrete = matches!(kind, "stairs" | "relay");
+    let is_discrete = matches!(kind, "stairs" | "relay" | "sampler");
     let output = format!(
         "causality=\"output\" variability=\"{}\"",
         if is_discrete { "discrete" } else { "continuous" }
@@ -398,6 +398,22 @@ fn steps_end_at_announced_events() {
                 assert!((x - expected).abs() < 1e-9, "{more:?}, t = {time}: {x}, not {expected}");
                 assert_eq!(y, steps.len() as f64);
             }
+        }
+    }
+}
+
+#[test]
+fn events_have_inputs_on_which_no_value_depends() {
+    // A sampled controller: its output is constant between events.
+    let sampler = "[units.sampler]\nfile = \"unit.fmu\"\ninputs = { u = \"cos(10*t)\" }\noutputs = { y = \"y\" }\nparameters = { p = 0.02 }\n";
+    for version in [2, 3] {
+        let folder = folder_with("exchange-sampler", version, "sampler", [0, 0], "");
+        let ended = run(&folder, &model("sampler.y", sampler), &[]);
+        assert_eq!((ended.code, &*ended.errors), (0, ""), "FMI {version}.0");
+        for (time, y) in times(&folder).iter().zip(column(&folder, "torque", "value")) {
+            // A record at the instant of an event has the values before it.
+            let sample = 0.02 * ((time / 0.02 - 1e-6).floor()).max(0.0);
+            assert!((y - 2.0 * (10.0 * sample).cos()).abs() < 1e-9, "FMI {version}.0, t = {time}: {y}");
         }
     }
 }

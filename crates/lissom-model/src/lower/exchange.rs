@@ -131,6 +131,9 @@ pub(super) fn add_unit(
     for group in 0..ports.groups.len() {
         add_group(document, builder, names, (unit, group))?;
     }
+    // Events may depend on inputs on which no value between them depends.
+    let inputs = (0..unit.inputs.len()).map(|index| input(document, builder, names, (unit, index)));
+    let inputs = inputs.collect::<Result<_, _>>()?;
     let Some(added) = names.references.exchanged.get(name).cloned() else { return Ok(()) };
     let first = builder.event_count();
     for (members, signals) in ports.groups.iter().zip(added.groups.into_iter().flatten()) {
@@ -150,7 +153,7 @@ pub(super) fn add_unit(
     builder.add_exchanged_unit(ExchangedUnit {
         slot: added.slot,
         states: added.states,
-        inputs: added.inputs.into_iter().flatten().collect(),
+        inputs,
         indicators: first..builder.event_count(),
     });
     Ok(())
