@@ -196,6 +196,29 @@ outputs = {{ angle = "arm.angle" }}
     assert simulation["torque.value"] == expected
 
 
+def test_a_forked_process_cannot_use_the_units_of_the_original(folder: Path) -> None:
+    pendulum = model(folder, UNIT.replace("MODE", "0"), "pid.y")
+    sim = pendulum.simulation()
+    sim.step_to(0.05)
+    receiver, sender = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            sim.step_to(0.2)
+            words = "no error"
+        except lissom.SolutionError as error:
+            words = str(error)
+        del sim
+        os.write(sender, words.encode())
+        os._exit(0)
+    os.waitpid(child, 0)
+    assert "the simulation belongs to the process from which this one was forked" in os.read(receiver, 4096).decode()
+    sim.step_to(0.2)
+    other = pendulum.simulation()
+    other.step_to(0.2)
+    assert sim["arm.angle"] == other["arm.angle"]
+
+
 def test_units_without_states_have_no_snapshot(folder: Path) -> None:
     simulation = model(folder, UNIT.replace("MODE", "0"), "pid.y").simulation()
     simulation.step_to(0.1)

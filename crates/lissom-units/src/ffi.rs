@@ -51,6 +51,21 @@ extern "C" fn log2(_: *mut c_void, _: *const c_char, _: Status, _: *const c_char
 unsafe extern "C" {
     fn calloc(count: usize, size: usize) -> *mut c_void;
     fn free(memory: *mut c_void);
+    #[cfg(unix)]
+    fn kill(process: c_int, signal: c_int) -> c_int;
+}
+
+/// Ends the processes of a group at once: a unit may have started others. The group is that of the process `id` for which it was made,
+/// or that of this process for 0. Does nothing where units do not run.
+pub fn end_group(id: u32) {
+    #[cfg(unix)]
+    if let Ok(id) = c_int::try_from(id) {
+        const SIGKILL: c_int = 9;
+        // SAFETY: the function only sends a signal. A group that has ended is no failure.
+        unsafe { kill(-id, SIGKILL) };
+    }
+    #[cfg(not(unix))]
+    let _ = id;
 }
 
 /// Functions for a unit of FMI 2.0.

@@ -24,8 +24,20 @@ struct Hosted {
 /// If the standard input is no socket, or a message cannot be read.
 #[cfg(unix)]
 pub fn serve(version: &str) -> io::Result<()> {
+    use crate::ffi::end_group;
     use std::os::fd::AsFd;
     use std::os::unix::net::UnixStream;
+    use std::os::unix::process::parent_id;
+    use std::time::Duration;
+    let simulation = parent_id();
+    // A unit that computes does not notice that the simulation was killed. One between two steps ends by itself.
+    std::thread::spawn(move || {
+        while parent_id() == simulation {
+            std::thread::sleep(Duration::from_millis(200));
+        }
+        std::thread::sleep(Duration::from_secs(1));
+        end_group(0);
+    });
     let mut stream = UnixStream::from(io::stdin().as_fd().try_clone_to_owned()?);
     let mut hosted = None;
     loop {
@@ -85,14 +97,14 @@ fn handle(hosted: &mut Option<Hosted>, request: Request, version: &str) -> Resul
         Request::Save => Ok(Answer::State(own.save()?)),
         Request::Restore(state) => {
             match postcard::from_bytes(&state).map_err(|error| error.to_string())? {
-                Saved::State(token, _) if token != own.opening.token => {
-                    return Err("the state is of another unit, or of another version of it".to_owned());
+                Saved::State(archive, _) | Saved::Start(archive, _) if archive != own.opening.archive => {
+                    return Err("the file of the unit has changed since the state was stored".to_owned());
                 }
                 Saved::State(_, state) => {
                     own.begin()?;
                     own.unit.restore(&state)?;
                 }
-                Saved::Start(inputs) => {
+                Saved::Start(_, inputs) => {
                     if own.has_begun {
                         // The instance is freed first: some units exist only once in a process.
                         let opening = own.opening.clone();
@@ -112,10 +124,10 @@ fn handle(hosted: &mut Option<Hosted>, request: Request, version: &str) -> Resul
 /// A saved state.
 #[derive(Serialize, Deserialize)]
 enum Saved {
-    /// Before the first step, with the inputs there.
-    Start(Vec<f64>),
-    /// Between two steps: the instantiation token of the unit, and what it has returned.
-    State(String, Vec<u8>),
+    /// Before the first step: the archive of the unit, and the inputs there.
+    Start([u64; 2], Vec<f64>),
+    /// Between two steps: the archive of the unit, and what it has returned.
+    State([u64; 2], Vec<u8>),
 }
 
 /// Value reference of a value of a group: an output, or the derivative of a state.
@@ -261,9 +273,9 @@ impl Hosted {
 
     fn save(&mut self) -> Result<Vec<u8>, String> {
         let saved = if self.has_begun {
-            Saved::State(self.opening.token.clone(), self.unit.save()?)
+            Saved::State(self.opening.archive, self.unit.save()?)
         } else {
-            Saved::Start(self.start.clone())
+            Saved::Start(self.opening.archive, self.start.clone())
         };
         postcard::to_stdvec(&saved).map_err(|error| error.to_string())
     }

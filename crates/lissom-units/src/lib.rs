@@ -5,6 +5,7 @@ mod ffi;
 mod host;
 mod messages;
 
+pub use ffi::end_group;
 pub use host::serve;
 pub use messages::{
     Answer, Exchange, Group, Opening, Point, Reply, Request, Standard, Variable, VariableType, receive, send,

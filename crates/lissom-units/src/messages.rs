@@ -61,6 +61,8 @@ pub struct Opening {
     pub saves: bool,
     /// For model exchange.
     pub exchange: Option<Exchange>,
+    /// Checksum and length of the archive: stored states belong to these equations.
+    pub archive: [u64; 2],
 }
 
 /// Equations of a unit for model exchange.
@@ -176,6 +178,9 @@ pub struct Reply {
     pub log: Vec<String>,
 }
 
+/// Largest length of a message [bytes]: states of units may have hundreds of megabytes.
+const MAX_LENGTH: u64 = 1 << 30;
+
 /// Sends a message.
 ///
 /// # Errors
@@ -197,6 +202,9 @@ pub fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<T> {
     let mut length = [0; 4];
     from.read_exact(&mut length)?;
     let length = u64::from(u32::from_le_bytes(length));
+    if length > MAX_LENGTH {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
     // Memory grows with what arrives: a wrong length allocates nothing.
     let mut content = Vec::new();
     from.take(length).read_to_end(&mut content)?;

@@ -262,6 +262,10 @@ fn a_unit_that_fails_ends_the_run_with_its_results_so_far() {
     }
     let (_, errors, _) = failure(6, 3, "");
     assert!(errors.contains("it ended the simulation"), "{errors}");
+    // Its child keeps the connection open.
+    let (_, errors, time) = failure(7, 3, "");
+    assert!(errors.contains("signal 6 (abort)"), "{errors}");
+    assert!(time < Duration::from_secs(30), "{time:?}");
     let (rows, errors, time) = failure(2, 3, "timeout = 0.5\n");
     assert!(errors.contains("did not answer within 0.5 s") && errors.contains("`timeout`"), "{errors}");
     assert!(rows >= 25 && time < Duration::from_secs(60), "{rows} rows, {time:?}");
@@ -383,6 +387,15 @@ fn a_killed_run_continues_with_the_state_of_its_unit() {
     started.0.kill().unwrap();
     drop(started);
     assert!(checkpoint.is_file(), "the run was not killed before its end");
+    // The same token, and another archive.
+    let file = folder.path().join("pi.fmu");
+    let unit = std::fs::read(&file).unwrap();
+    std::fs::write(&file, [&unit[..], &[0]].concat()).unwrap();
+    let ended = lissom(&["run", "--resume", "out", "--quiet"], folder.path());
+    assert_eq!(ended.code, 3, "{}", ended.errors);
+    let words = "the unit `pid` cannot return to its stored state: the file of the unit has changed";
+    assert!(ended.errors.contains(words), "{}", ended.errors);
+    std::fs::write(&file, unit).unwrap();
     let ended = lissom(&["run", "--resume", "out", "--quiet"], folder.path());
     assert_eq!((ended.code, &*ended.errors), (0, ""));
     assert_eq!(column(&folder, "arm", "angle"), expected);
@@ -407,18 +420,97 @@ fn sweeps_have_a_unit_for_each_run() {
     assert_eq!(table.lines().count(), 5, "{table}");
 }
 
+/// A run whose unit waits in its step, with its temporary files in `temporary`.
+fn waiting(folder: &Folder, temporary: &Path) -> Run {
+    std::fs::create_dir_all(temporary).unwrap();
+    let unit = UNIT.replace("ki = 3", "ki = 3, mode = 2") + "timeout = 200\n";
+    folder.write("model.toml", &model(&unit, "pid.y"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lissom"));
+    command.args(["run", "model.toml", "--no-plots", "--out", "out"]).current_dir(folder.path());
+    let mut run = Run(command.env("TMPDIR", temporary).spawn().unwrap());
+    // Rows are written as they are buffered: the step that waits begins within a moment.
+    wait_for(|| folder.path().join("out/summary.json").is_file());
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(run.0.try_wait().unwrap().is_none());
+    run
+}
+
+#[test]
+fn an_interruption_does_not_wait_for_a_unit() {
+    let folder = folder_with("units-interrupt", 3);
+    let mut run = waiting(&folder, &folder.path().join("temporary"));
+    let began = Instant::now();
+    run.interrupt();
+    let status = run.0.wait().unwrap();
+    assert!(began.elapsed() < Duration::from_secs(5), "{:?}", began.elapsed());
+    assert_eq!(status.code(), Some(130));
+    let rows = column(&folder, "arm", "angle").len();
+    assert!((25..=28).contains(&rows), "{rows} rows");
+    let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    assert!(summary.contains("\"interrupted\""), "{summary}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_killed_run_leaves_no_process_and_no_folder() {
+    let folder = folder_with("units-killed", 3);
+    let temporary = folder.path().join("temporary");
+    let mut run = waiting(&folder, &temporary);
+    let left =
+        || std::fs::read_dir(&temporary).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+    let [place] = &left()[..] else { panic!("{:?}", left()) };
+    // The process of the unit works in its folder.
+    let works = || {
+        let processes = std::fs::read_dir("/proc").unwrap().flatten();
+        processes.filter_map(|own| std::fs::read_link(own.path().join("cwd")).ok()).any(|own| own == *place)
+    };
+    assert!(works());
+    run.0.kill().unwrap();
+    run.0.wait().unwrap();
+    wait_for(|| !works());
+    assert!(place.is_dir());
+    let ended = lissom_in(&folder, &temporary);
+    assert!(ended.success());
+    assert!(left().is_empty(), "{:?}", left());
+}
+
+/// Runs a model with a unit that does not fail.
+fn lissom_in(folder: &Folder, temporary: &Path) -> std::process::ExitStatus {
+    folder.write("model.toml", &model(UNIT, "pid.y"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lissom"));
+    command.args(["run", "model.toml", "--quiet", "--no-plots"]).current_dir(folder.path());
+    command.env("TMPDIR", temporary).status().unwrap()
+}
+
+#[test]
+fn folders_and_equal_files_of_an_archive_count_once() {
+    let folder = folder_with("units-twice", 3);
+    let text = description(3, "");
+    let name = format!("binaries/{}/pi{}", platform(3), std::env::consts::DLL_SUFFIX);
+    let files: [(&str, &[u8]); 5] = [
+        ("modelDescription.xml", text.as_bytes()),
+        (&name, &LIBRARY),
+        ("extra/", b""),
+        ("extra/", b""),
+        (&name, &LIBRARY),
+    ];
+    std::fs::write(folder.path().join("pi.fmu"), zip(&files)).unwrap();
+    let ended = run(&folder, &model(UNIT, "pid.y"), &[]);
+    assert_eq!((ended.code, &*ended.errors), (0, ""));
+    let files: [(&str, &[u8]); 2] =
+        [("modelDescription.xml", text.as_bytes()), ("modelDescription.xml", b"")];
+    std::fs::write(folder.path().join("pi.fmu"), zip(&files)).unwrap();
+    let ended = run(&folder, &model(UNIT, "pid.y"), &[]);
+    assert_eq!(ended.code, 2, "{}", ended.errors);
+    assert!(ended.errors.contains("it contains `modelDescription.xml` twice"), "{}", ended.errors);
+}
+
 #[test]
 fn temporary_files_are_removed() {
     let folder = folder_with("units-files", 3);
     let temporary = folder.path().join("temporary");
     std::fs::create_dir(&temporary).unwrap();
-    folder.write("model.toml", &model(UNIT, "pid.y"));
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lissom"));
-    command
-        .args(["run", "model.toml", "--quiet", "--no-plots"])
-        .env("TMPDIR", &temporary)
-        .current_dir(folder.path());
-    assert!(command.status().unwrap().success());
+    assert!(lissom_in(&folder, &temporary).success());
     let left: Vec<PathBuf> =
         std::fs::read_dir(&temporary).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert!(left.is_empty(), "{left:?}");

@@ -1,7 +1,7 @@
 //! Reads ZIP archives of others: names that lead outside, links, and files that are larger than expected are rejected before anything
 //! is unpacked.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::io::Read;
 
 use flate2::Crc;
@@ -46,7 +46,7 @@ impl<'a> Unarchived<'a> {
         let end = tail + end.ok_or("it is no ZIP archive")?;
         let count = number(bytes, end + 10, 2)?;
         let mut at = number(bytes, end + 16, 4)?;
-        let (mut files, mut names, mut total) = (Vec::new(), BTreeSet::new(), 0_usize);
+        let (mut files, mut names, mut total) = (Vec::new(), BTreeMap::new(), 0_usize);
         for _ in 0..count {
             if bytes.get(at..at + 4) != Some(b"PK\x01\x02") {
                 return Err("its directory is damaged, or it is larger than 4 GB".to_owned());
@@ -74,7 +74,13 @@ impl<'a> Unarchived<'a> {
                     "its file `{shown}` is encrypted, or compressed by another method than Deflate"
                 ));
             }
-            if !names.insert(name.to_lowercase()) {
+            let content = [number(bytes, at + 16, 4)?, size];
+            // Folders, and files with the same content, count once.
+            if let Some(other) = names.insert(name.to_lowercase(), (name.clone(), content)) {
+                if other == (name, content) {
+                    at += 46 + name_length + next;
+                    continue;
+                }
                 return Err(format!("it contains `{shown}` twice"));
             }
             total = total.saturating_add(size);
@@ -84,7 +90,7 @@ impl<'a> Unarchived<'a> {
             }
             files.push(File {
                 is_deflated: method == 8,
-                crc: number(bytes, at + 16, 4)? as u32,
+                crc: content[0] as u32,
                 packed: number(bytes, at + 20, 4)?,
                 size,
                 header: number(bytes, at + 42, 4)?,

@@ -20,6 +20,7 @@ use crate::start::Lowered;
 use lissom_core::errors::Warning;
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::instants;
+use lissom_core::interrupt;
 use lissom_core::settings::StepReport;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
@@ -578,7 +579,9 @@ impl Session {
                     if !recorded {
                         self.write_row(writers, Due::End)?;
                     }
-                    if matches!(error, StepError::Interrupted { .. }) {
+                    // A unit that computes is ended by an interruption.
+                    let is_asked = interrupt::is_asked() && matches!(error, StepError::Unit { .. });
+                    if is_asked || matches!(error, StepError::Interrupted { .. }) {
                         return Ok(ControlFlow::Break(()));
                     }
                     return Err(error.into());

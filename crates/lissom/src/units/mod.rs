@@ -5,11 +5,13 @@ mod equations;
 mod process;
 
 use std::borrow::Cow;
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::fs::{self, File};
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Once};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use flate2::Crc;
 use lissom_core::signals::exchange::UnitEquations;
 use lissom_core::simulation::{Unit, UnitFault};
 use lissom_model::document::{ExchangePorts, UnitEntry, UnitMode};
@@ -152,6 +154,7 @@ fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<ExchangePorts>), Box<
         outputs,
         saves,
         exchange,
+        archive: digest(&archive),
     };
     let timeout = Duration::try_from_secs_f64(entry.timeout).unwrap_or(Duration::MAX);
     let timeout = timeout.max(Duration::from_millis(1));
@@ -254,7 +257,7 @@ impl ReadUnit {
             cause: format!("its files cannot be unpacked: {reason}"),
             remedy: "check the folder of temporary files, TMPDIR, and its free space".to_owned(),
         })?;
-        let absolute = |path: &str| folder.0.join(path).display().to_string();
+        let absolute = |path: &str| folder.path.join(path).display().to_string();
         let opening = Opening {
             start,
             library: absolute(&self.opening.library),
@@ -267,28 +270,56 @@ impl ReadUnit {
     /// Writes the files that the unit needs to a new temporary folder, which only this user can read.
     fn unpack(&self) -> Result<UnpackedFolder, String> {
         let files = Unarchived::of(&self.archive)?;
-        let folder = UnpackedFolder(new_folder().map_err(|error| error.to_string())?);
+        static LEFT: Once = Once::new();
+        LEFT.call_once(|| remove_left_folders(&std::env::temp_dir()));
+        let folder = new_folder().map_err(|error| error.to_string())?;
         let is_needed = |name: &&str| {
             let is_other = name.starts_with("binaries/") && !name.starts_with(&self.binaries);
             !(is_other || name.starts_with("sources/") || name.starts_with("documentation/"))
         };
-        std::fs::create_dir_all(folder.0.join("resources")).map_err(|error| error.to_string())?;
+        fs::create_dir_all(folder.path.join("resources")).map_err(|error| error.to_string())?;
         for name in files.names().filter(is_needed) {
-            let path = folder.0.join(name);
-            let written = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+            let path = folder.path.join(name);
+            let written = path.parent().map_or(Ok(()), fs::create_dir_all);
             let contents = files.contents(name)?.unwrap_or_default();
             written
-                .and_then(|()| std::fs::write(&path, contents))
+                .and_then(|()| fs::write(&path, contents))
                 .map_err(|error| format!("`{name}`: {error}"))?;
         }
         Ok(folder)
     }
 }
 
+/// Checksum and length of an archive.
+fn digest(archive: &[u8]) -> [u64; 2] {
+    let mut crc = Crc::new();
+    crc.update(archive);
+    [u64::from(crc.sum()), archive.len() as u64]
+}
+
+/// Beginning of the names of folders of units.
+const PREFIX: &str = "lissom-unit-";
+/// File in the folder of a unit that is locked as long as the folder is in use.
+const LOCK: &str = ".lissom-lock";
+
+/// Removes the folders of units whose simulation was killed: nothing locks them.
+fn remove_left_folders(temporary: &Path) {
+    for folder in fs::read_dir(temporary).into_iter().flatten().flatten() {
+        let is_of_unit = folder.file_name().to_string_lossy().starts_with(PREFIX);
+        let lock = is_of_unit.then(|| File::open(folder.path().join(LOCK)));
+        if let Some(Ok(lock)) = lock
+            && lock.try_lock().is_ok()
+        {
+            // What belongs to others remains.
+            let _ = fs::remove_dir_all(folder.path());
+        }
+    }
+}
+
 /// A new folder among the temporary files.
-fn new_folder() -> std::io::Result<PathBuf> {
+fn new_folder() -> std::io::Result<UnpackedFolder> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
-    let mut builder = std::fs::DirBuilder::new();
+    let mut builder = fs::DirBuilder::new();
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
     let mut last = std::io::Error::from(std::io::ErrorKind::AlreadyExists);
@@ -296,10 +327,18 @@ fn new_folder() -> std::io::Result<PathBuf> {
         let nanoseconds =
             SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.subsec_nanos());
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!("lissom-unit-{}-{number}-{nanoseconds:x}", std::process::id());
-        let folder = std::path::absolute(std::env::temp_dir().join(name))?;
-        match builder.create(&folder) {
-            Ok(()) => return Ok(folder),
+        let owner = std::process::id();
+        let name = format!("{PREFIX}{owner}-{number}-{nanoseconds:x}");
+        let path = std::path::absolute(std::env::temp_dir().join(name))?;
+        match builder.create(&path) {
+            Ok(()) => {
+                let lock = File::create(path.join(LOCK))?;
+                lock.lock()?;
+                // Until it was locked, another simulation could remove the folder.
+                if path.join(LOCK).exists() {
+                    return Ok(UnpackedFolder { path, _lock: lock, owner });
+                }
+            }
             Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => last = error,
             Err(error) => return Err(error),
         }

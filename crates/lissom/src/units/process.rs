@@ -1,14 +1,16 @@
 //! The process of a unit, as the simulation sees it: requests with a limit of time, and what is left when it has ended.
 
-use std::io::{self, Read};
+use std::fs::File;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use lissom_core::interrupt;
 use lissom_core::signals::exchange::{AfterEvent, UnitEquations, UnitPoint, UnitValues};
 use lissom_core::simulation::{Unit, UnitFault};
-use lissom_units::{Answer, Opening, Point, Reply, Request, receive, send};
+use lissom_units::{Answer, Opening, Point, Reply, Request, end_group, receive, send};
 
 #[cfg(unix)]
 type Stream = std::os::unix::net::UnixStream;
@@ -19,6 +21,8 @@ type Stream = std::net::TcpStream;
 const PROGRAM: &str = "LISSOM_UNIT_HOST";
 /// Subcommand of the program that serves units.
 pub const COMMAND: &str = "unit-host";
+/// How often a simulation that waits for a unit checks whether it is interrupted, and whether the process exists.
+const POLL: Duration = Duration::from_millis(50);
 
 /// The command that starts a process for a unit: a program and its arguments.
 static HOST: Mutex<Option<(PathBuf, Vec<String>)>> = Mutex::new(None);
@@ -75,16 +79,77 @@ struct Connection {
     /// The last bytes that the process has written to the terminal.
     written: Arc<Mutex<Vec<u8>>>,
     timeout: Duration,
-    _folder: UnpackedFolder,
+    folder: UnpackedFolder,
 }
 
-/// A folder with the files of a unit, removed with this value.
-pub(super) struct UnpackedFolder(pub(super) PathBuf);
+/// A folder with the files of a unit, removed with this value by the process that made it.
+pub(super) struct UnpackedFolder {
+    pub(super) path: PathBuf,
+    /// Locked as long as the folder is in use.
+    pub(super) _lock: File,
+    /// The process that made it.
+    pub(super) owner: u32,
+}
+
+impl UnpackedFolder {
+    /// Whether this process is a copy, made by a fork, of the one that made the folder.
+    fn is_of_another_process(&self) -> bool {
+        self.owner != std::process::id()
+    }
+}
 
 impl Drop for UnpackedFolder {
     fn drop(&mut self) {
-        // What cannot be removed remains among the temporary files.
-        let _ = std::fs::remove_dir_all(&self.0);
+        if !self.is_of_another_process() {
+            // What cannot be removed remains among the temporary files.
+            let _ = std::fs::remove_dir_all(&self.path);
+        }
+    }
+}
+
+/// A connection during one request: waits until the limit of time, while the process exists and the simulation is not interrupted.
+struct Link<'a> {
+    stream: &'a mut Stream,
+    child: &'a mut Child,
+    deadline: Option<Instant>,
+}
+
+impl Link<'_> {
+    fn wait<T>(&mut self, mut attempt: impl FnMut(&mut Stream) -> io::Result<T>) -> io::Result<T> {
+        loop {
+            match attempt(self.stream) {
+                Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => {
+                }
+                other => return other,
+            }
+            if interrupt::is_asked() {
+                // Functions of the standard library repeat calls that are `Interrupted`.
+                return Err(io::ErrorKind::ConnectionAborted.into());
+            }
+            // Its children may keep the connection open.
+            if !matches!(self.child.try_wait(), Ok(None)) {
+                return Err(io::ErrorKind::BrokenPipe.into());
+            }
+            if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                return Err(io::ErrorKind::TimedOut.into());
+            }
+        }
+    }
+}
+
+impl Read for Link<'_> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.wait(|stream| stream.read(bytes))
+    }
+}
+
+impl Write for Link<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.wait(|stream| stream.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
     }
 }
 
@@ -133,9 +198,11 @@ impl UnitProcess {
             cause: format!("its process, `{}`, cannot be started: {error}", program.display()),
             remedy: format!("check the program, or set {PROGRAM} to the path of `lissom`"),
         };
-        let (stream, child) = spawn(&mut command, &folder.0).map_err(failed)?;
+        let (stream, child) = spawn(&mut command, &folder.path).map_err(failed)?;
+        let poll = Some(POLL.min(timeout));
+        stream.set_read_timeout(poll).and_then(|()| stream.set_write_timeout(poll)).map_err(failed)?;
         let mut connection =
-            Connection { child, stream: Some(stream), written: Arc::default(), timeout, _folder: folder };
+            Connection { child, stream: Some(stream), written: Arc::default(), timeout, folder };
         connection.collect_errors();
         connection.request(&Request::Open(Box::new(opening)))?;
         Ok(Self { connection: Mutex::new(connection), saves, completes, states })
@@ -215,15 +282,18 @@ impl Connection {
     }
 
     fn request(&mut self, request: &Request) -> Result<Answer, UnitFault> {
+        if self.folder.is_of_another_process() {
+            let cause = "the simulation belongs to the process from which this one was forked".to_owned();
+            let remedy = "make a new simulation in this process".to_owned();
+            return Err(UnitFault { cause, remedy });
+        }
         let Some(stream) = &mut self.stream else {
             let remedy = "start the simulation again".to_owned();
             return Err(UnitFault { cause: "its process has ended".to_owned(), remedy });
         };
-        let exchanged = stream
-            .set_read_timeout(Some(self.timeout))
-            .and_then(|()| stream.set_write_timeout(Some(self.timeout)))
-            .and_then(|()| send(stream, request))
-            .and_then(|()| receive::<Reply>(stream));
+        let deadline = Instant::now().checked_add(self.timeout);
+        let mut link = Link { stream, child: &mut self.child, deadline };
+        let exchanged = send(&mut link, request).and_then(|()| receive::<Reply>(&mut link));
         let error = match exchanged {
             Ok(Reply { answer: Ok(answer), .. }) => return Ok(answer),
             Ok(Reply { answer: Err(error), log }) => {
@@ -248,13 +318,24 @@ impl Connection {
             Err(error) => error,
         };
         self.stream = None;
-        if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) {
-            let _ = self.child.kill();
-            let cause = format!("it did not answer within {} s", self.timeout.as_secs_f64());
-            let remedy = "increase `timeout` of the unit, or look for what it waits for".to_owned();
-            return Err(UnitFault { cause, remedy });
+        let ended = match error.kind() {
+            io::ErrorKind::TimedOut => Some((
+                format!("it did not answer within {} s", self.timeout.as_secs_f64()),
+                "increase `timeout` of the unit, or look for what it waits for",
+            )),
+            io::ErrorKind::ConnectionAborted => Some(("the run was interrupted".to_owned(), "run it again")),
+            io::ErrorKind::InvalidData => Some((
+                "its process sends an answer that cannot be read".to_owned(),
+                "check whether the unit writes to its standard input, which connects it to the simulation",
+            )),
+            _ => None,
+        };
+        if let Some((cause, remedy)) = ended {
+            end_group(self.child.id());
+            return Err(UnitFault { cause, remedy: remedy.to_owned() });
         }
         let mut cause = words(self.wait(Duration::from_secs(5)));
+        end_group(self.child.id());
         let written = plain(&self.terminal());
         if !written.is_empty() {
             cause = format!("{cause}; it wrote: {written}");
@@ -278,7 +359,7 @@ impl Connection {
             }
             std::thread::sleep(Duration::from_millis(2));
         }
-        let _ = self.child.kill();
+        end_group(self.child.id());
         self.child.wait().ok()
     }
 }
@@ -286,7 +367,9 @@ impl Connection {
 impl Drop for Connection {
     fn drop(&mut self) {
         self.stream = None;
-        self.wait(Duration::from_secs(2));
+        if !self.folder.is_of_another_process() {
+            self.wait(Duration::from_secs(2));
+        }
     }
 }
 
