@@ -21,7 +21,7 @@ fn description(version: u8, kind: &str, [states, indicators]: [usize; 2], flags:
         }
     };
     let real = ["Real", "Float64"];
-    let is_discrete = matches!(kind, "stairs" | "relay" | "sampler");
+    let is_discrete = matches!(kind, "stairs" | "relay" | "sampler" | "storm");
     let output = format!(
         "causality=\"output\" variability=\"{}\"",
         if is_discrete { "discrete" } else { "continuous" }
@@ -535,6 +535,25 @@ fn snapshots_contain_the_discrete_state() {
 }
 
 #[test]
+fn events_without_end_are_a_failure() {
+    let storm = |pause: &str| {
+        format!(
+            "[units.storm]\nfile = \"unit.fmu\"\ninputs = {{ u = 0 }}\noutputs = {{ y = \"y\" }}\nparameters = {{ p = {pause} }}\n"
+        )
+    };
+    let folder = folder_with("exchange-storm", 3, "storm", [0, 0], "");
+    for pause in ["1e-9", "1e-14"] {
+        let ended = run(&folder, &model("storm.y", &storm(pause)), &[]);
+        assert_eq!(ended.code, 3, "{}", ended.errors);
+        assert!(ended.errors.contains("the unit `storm`"), "{}", ended.errors);
+        assert!(ended.errors.contains("it had 5000 events between t = 0 s and t = "), "{}", ended.errors);
+    }
+    // Many events in a long run are none.
+    let ended = run(&folder, &model("storm.y", &storm("1e-4")), &["--set", "analysis.step=1e-3"]);
+    assert_eq!((ended.code, &*ended.errors), (0, ""));
+}
+
+#[test]
 fn mistakes_are_reported() {
     let folder = folder_with("exchange-bad", 3, "filter", [1, 0], EXACT);
     let check = |from: &str, to: &str, words: &[&str]| {
@@ -564,6 +583,11 @@ fn mistakes_are_reported() {
     for (from, to, words) in [
         ("<Float64 name=\"u\"", "<Int32 name=\"u\"", "is not continuous"),
         ("derivative=\"6\"", "", "has no state"),
+        (
+            "</ModelStructure>",
+            &("<EventIndicator valueReference=\"11\"/>".repeat(2001) + "</ModelStructure>"),
+            "has more than 2000 event indicators",
+        ),
         ("valueReference=\"8\" />", "valueReference=\"80\" />", "names a variable that it does not have"),
     ] {
         let text = description(3, "filter", [1, 0], EXACT);
@@ -573,5 +597,13 @@ fn mistakes_are_reported() {
         let ended = run(&folder, &model("5*osc.y", FILTER), &[]);
         assert_eq!(ended.code, 2, "{to}: {}", ended.errors);
         assert!(ended.errors.contains(words), "{to}: {}", ended.errors);
+    }
+    for count in ["4000000000", "18446744073709551616"] {
+        let text = description(2, "filter", [1, 0], EXACT)
+            .replace("Indicators=\"0\"", &format!("Indicators=\"{count}\""));
+        write_unit_with(&folder.path().join("unit.fmu"), 2, &text, &LIBRARY);
+        let ended = run(&folder, &model("5*osc.y", FILTER), &[]);
+        assert_eq!(ended.code, 2, "{count}: {}", ended.errors);
+        assert!(ended.errors.contains("has more than 2000 event indicators"), "{count}: {}", ended.errors);
     }
 }

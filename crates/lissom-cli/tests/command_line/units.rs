@@ -310,7 +310,7 @@ fn mistakes_in_a_unit_are_underlined() {
                 "modelDescription.xml",
                 description(3, "").replace("CoSimulation", "ScheduledExecution").as_bytes(),
             )]),
-            "supports scheduled execution only",
+            "supports scheduled execution only (a class of PythonFMU3 needs the base `CoSimulation`)",
         ),
         (
             "bare.fmu",

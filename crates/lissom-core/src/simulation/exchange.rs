@@ -25,7 +25,12 @@ pub struct ExchangedUnits {
 struct Exchanged {
     slot: Arc<UnitSlot>,
     events: UnitEvents,
+    /// Events since a time [s], at most one planned step ago.
+    recent: (f64, usize),
 }
+
+/// Largest number of events of a unit within a planned step, or within the longest adaptive one: ten times the samples of a fast controller.
+const MAX_EVENTS: usize = 5000;
 
 /// Events of a unit between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -72,7 +77,8 @@ impl ExchangedUnits {
             ports.slot.attach(unit).map_err(failed(ports))?;
             let slot = Arc::clone(&ports.slot);
             let (inputs, reached) = (vec![f64::NAN; ports.inputs.len()], at.time);
-            all.own.push(Exchanged { slot, events: UnitEvents { inputs, reached, ..UnitEvents::default() } });
+            let events = UnitEvents { inputs, reached, ..UnitEvents::default() };
+            all.own.push(Exchanged { slot, events, recent: (reached, 0) });
         }
         // Units in series pass values on by one unit at a time; a contraction in a loop of feedthrough needs more passes.
         for pass in 0..=100 {
@@ -269,6 +275,14 @@ impl Simulation {
                 let own = &mut self.exchanged.own[index];
                 if !std::mem::take(&mut own.events.is_due) {
                     continue;
+                }
+                let (since, count) = own.recent;
+                own.recent = if time - since > longest { (time, 1) } else { (since, count + 1) };
+                if own.recent.1 > MAX_EVENTS {
+                    let cause = format!("it had {count} events between t = {since} s and t = {time} s");
+                    let remedy =
+                        "look for events that follow each other without end, or decrease `analysis.step`";
+                    return Err(error_of(&own.slot, time, UnitFault { cause, remedy: remedy.to_owned() }));
                 }
                 let crossed = std::mem::take(&mut own.events.crossed);
                 let beyond = self.beyond(&crossed);

@@ -57,6 +57,9 @@ pub(super) struct Described {
     pub(super) derivative: Option<u32>,
 }
 
+/// Largest number of event indicators: every step evaluates them all.
+const MAX_INDICATORS: usize = 2000;
+
 impl Description {
     /// Reads a description.
     pub(super) fn read(text: &str) -> Result<Self, String> {
@@ -117,15 +120,21 @@ impl Description {
         let (outputs, derivatives) =
             (unknowns("Outputs", "Output")?, unknowns("Derivatives", "ContinuousStateDerivative")?);
         let indicators = match standard {
-            Standard::Fmi2 => root.attribute("numberOfEventIndicators").and_then(|count| count.parse().ok()),
+            Standard::Fmi2 => root.attribute("numberOfEventIndicators").map_or(0, |count| {
+                // What is no number is more than can be used.
+                count.trim().parse().unwrap_or(usize::MAX)
+            }),
             Standard::Fmi3 => {
                 let all = unknowns("", "EventIndicator")?;
                 if let Some((array, _)) = all.iter().find(|(index, _)| variables[*index].variable.is_none()) {
                     return Err(format!("its event indicator `{}` is an array", variables[*array].name));
                 }
-                Some(all.len())
+                all.len()
             }
         };
+        if indicators > MAX_INDICATORS {
+            return Err(format!("its description has more than {MAX_INDICATORS} event indicators"));
+        }
         let [co_simulation, model_exchange] = [kind("CoSimulation")?, kind("ModelExchange")?];
         Ok(Self {
             standard,
@@ -134,7 +143,7 @@ impl Description {
             model_exchange,
             outputs,
             derivatives,
-            indicators: indicators.unwrap_or(0),
+            indicators,
             variables,
         })
     }

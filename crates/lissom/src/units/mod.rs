@@ -166,7 +166,10 @@ fn mode_of<'d>(entry: &UnitEntry, description: &'d Description) -> Result<(UnitM
     let co_simulation = description.co_simulation.as_ref().map(|kind| (UnitMode::CoSimulation, kind));
     let exchange = description.model_exchange.as_ref().map(|kind| (UnitMode::ModelExchange, kind));
     match entry.mode {
-        None => co_simulation.or(exchange).ok_or_else(|| "it supports scheduled execution only".to_owned()),
+        None => co_simulation.or(exchange).ok_or_else(|| {
+            let message = "its description has neither `CoSimulation` nor `ModelExchange`; it supports scheduled execution only";
+            format!("{message} (a class of PythonFMU3 needs the base `CoSimulation`)")
+        }),
         Some(UnitMode::CoSimulation) => {
             co_simulation.ok_or_else(|| "it does not support co-simulation".to_owned())
         }
