@@ -228,4 +228,15 @@ fn results_of_a_killed_run_are_shown_with_a_warning() {
     }
     let page = fs::read_to_string(folder.path().join("o/view.html")).unwrap();
     assert!(page.contains("The run is incomplete"));
+    // A summary that is damaged does not state how the run has ended.
+    for text in ["", "{\"version\":", "{}"] {
+        fs::write(folder.path().join("o/summary.json"), text).unwrap();
+        for args in [["view", "o"], ["plot", "o"]] {
+            let ended = lissom(&args, folder.path());
+            let words = "There is no summary, or it is damaged: the run is incomplete or still in progress.";
+            assert!(ended.errors.contains(words), "{args:?} {text}: {}", ended.errors);
+        }
+        let page = fs::read_to_string(folder.path().join("o/view.html")).unwrap();
+        assert!(page.contains("or it is damaged"), "{text}");
+    }
 }

@@ -19,7 +19,7 @@ use crate::exchange::export;
 use crate::motion::{Motion, MotionError};
 
 /// Name of the table in the folder.
-const HISTORY: &str = "history.csv";
+pub(crate) const HISTORY: &str = "history.csv";
 /// Name of the summary in the folder.
 pub(crate) const SUMMARY: &str = "summary.json";
 /// Name of the motion file in the folder.

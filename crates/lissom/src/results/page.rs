@@ -7,7 +7,9 @@ use lissom_model::files;
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
-use super::folder::{CAMPBELL, EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
+use super::folder::{
+    CAMPBELL, EVENTS, FolderError, HISTORY, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY,
+};
 use crate::motion::{Motion, MotionError, RecordedRun};
 use crate::pictures::view::{Notice, Results};
 
@@ -43,7 +45,9 @@ impl ResultFolder {
 
     /// A sentence about a run that did not reach its end, such as one that was killed; none of complete results.
     pub fn incomplete(path: &Path) -> Option<String> {
-        Notice::of_end(&Self::summary(path)).map(|notice| notice.text().to_owned())
+        let summary = Self::summary(path);
+        let notice = Notice::of_end(&summary).or_else(|| of_unknown_end(path, &summary));
+        notice.map(|notice| notice.text().to_owned())
     }
 
     fn summary(path: &Path) -> Value {
@@ -74,9 +78,8 @@ impl ResultFolder {
         if let Ok(events) = files::read_text(&path.join(EVENTS)) {
             results = results.with_events(&events);
         }
-        if summary.is_null() {
-            let text = "There is no summary: the run is incomplete or still in progress.";
-            results = results.with_notice(Notice::warning(text));
+        if let Some(notice) = of_unknown_end(path, &summary) {
+            results = results.with_notice(notice);
         }
         let Some((scene, motion)) = drawn(path)? else {
             let text = "No motion was recorded: run the model without `--no-plots` to see an animation.";
@@ -93,6 +96,14 @@ impl ResultFolder {
         }
         results.with_scene(&scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))
     }
+}
+
+/// A run whose summary does not state how it has ended.
+fn of_unknown_end(path: &Path, summary: &Value) -> Option<Notice> {
+    let is_run =
+        path.join(HISTORY).is_file() && ![MODES, CAMPBELL].iter().any(|name| path.join(name).is_file());
+    let text = "There is no summary, or it is damaged: the run is incomplete or still in progress.";
+    (is_run && !summary["stopped"].is_string()).then(|| Notice::warning(text))
 }
 
 /// Scene and motion, if they exist.
