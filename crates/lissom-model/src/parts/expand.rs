@@ -263,6 +263,9 @@ impl Expansion<'_> {
                 if path.contains(other) {
                     return self.fail(like.node.span, format!("part `{name}` is like itself"), "let one of these parts have a content of its own");
                 }
+                if path.len() >= DEPTH {
+                    return self.fail(like.node.span, format!("part `{}` is like another one through {DEPTH} others", path[0]), "be like the part that has the content");
+                }
                 let Some(table) = entry.node.table() else {
                     return self.fail(entry.node.span, format!("part `{other}` must be a table"), "write [parts.name] and below it what it is");
                 };

@@ -327,6 +327,24 @@ fn models_are_included_from_folders_beside_the_description() {
 }
 
 #[test]
+fn trees_of_included_models_have_a_limit() {
+    let folder = Folder::new("sdf-tree");
+    for level in 0..12 {
+        let include =
+            |number: usize| format!("<include><name>n{number}</name><uri>../b{}</uri></include>", level + 1);
+        let inner: String =
+            if level < 11 { (0..8).map(include).collect() } else { "<link name='x'/>".to_owned() };
+        std::fs::create_dir_all(folder.path().join(format!("b{level}"))).unwrap();
+        folder.write(
+            &format!("b{level}/model.sdf"),
+            &format!("<sdf version='1.9'><model name='c'>{inner}</model></sdf>"),
+        );
+    }
+    let found = from_file(&folder.path().join("b0/model.sdf")).unwrap_err().message;
+    assert!(found.contains("included models have more than 500000 elements"), "{found}");
+}
+
+#[test]
 fn faults_and_what_is_not_supported_are_named() {
     let model = |inside: &str| format!("<model name='m'>{inside}</model>");
     let arm = |joint: &str| {

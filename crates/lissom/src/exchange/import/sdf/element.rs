@@ -12,6 +12,8 @@ use super::super::xml::{self, Lines};
 
 /// Largest number of files that include each other one in the other.
 const MAX_INCLUDED: usize = 20;
+/// Largest number of elements of included models.
+const MAX_ELEMENTS: usize = 500_000;
 /// The version from which axes are in the frame of their joint.
 const AXES_IN_JOINTS: u32 = 5;
 
@@ -191,20 +193,26 @@ impl Element {
     /// Replaces `<include>` by the models of their files, which are looked for in `folder` and beside it.
     ///
     /// # Errors
-    /// If a file is not there, is not a file of one model, or files include each other too deeply.
-    pub(super) fn include(&mut self, folder: Option<&Path>, depth: usize) -> Result<(), ImportError> {
+    /// If a file is not there, is not a file of one model, or files include each other too deeply or too often; `count` has the number of
+    /// elements that are included so far.
+    pub(super) fn include(
+        &mut self,
+        folder: Option<&Path>,
+        depth: usize,
+        count: &mut usize,
+    ) -> Result<(), ImportError> {
         for child in &mut self.children {
             if child.tag == "include" {
-                *child = child.included(folder, depth)?;
+                *child = child.included(folder, depth, count)?;
             } else if matches!(child.tag.as_str(), "model" | "world") {
-                child.include(folder, depth)?;
+                child.include(folder, depth, count)?;
             }
         }
         Ok(())
     }
 
     /// The model of a file, with what `<include>` replaces of it.
-    fn included(&self, folder: Option<&Path>, depth: usize) -> Result<Self, ImportError> {
+    fn included(&self, folder: Option<&Path>, depth: usize, count: &mut usize) -> Result<Self, ImportError> {
         let uri = self.word("uri").ok_or_else(|| self.fault("it has no <uri>"))?;
         let Some(folder) = folder else {
             return Err(self.fault(format!("the file `{uri}` is not read from a text without a folder")));
@@ -219,7 +227,14 @@ impl Element {
         let own = path.parent().unwrap_or(folder);
         let text = files::read_input_text(&path).map_err(|error| self.fault(error))?;
         let mut root = Self::read(&text, uri)?;
-        root.include(Some(own), depth + 1)?;
+        *count += root.size();
+        if *count > MAX_ELEMENTS {
+            let message = format!(
+                "included models have more than {MAX_ELEMENTS} elements: include fewer, or files that include less"
+            );
+            return Err(self.fault(message));
+        }
+        root.include(Some(own), depth + 1, count)?;
         let models: Vec<&Self> = root.children.iter().filter(|child| child.tag == "model").collect();
         let [model] = models[..] else {
             return Err(self.fault(format!("the file `{uri}` has {} models, not one", models.len())));
@@ -251,6 +266,11 @@ impl Element {
             .children
             .extend(self.children.iter().filter(|child| !known.contains(&child.tag.as_str())).cloned());
         Ok(model)
+    }
+
+    /// Number of elements, with this one.
+    fn size(&self) -> usize {
+        1 + self.children.iter().map(Self::size).sum::<usize>()
     }
 
     /// Names meshes beside an included file by their whole path.

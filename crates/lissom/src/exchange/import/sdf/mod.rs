@@ -68,7 +68,7 @@ pub fn from_sdf(text: &str) -> Result<Robot, ImportError> {
 /// Reads a robot from the text of an SDF file in a folder, in and beside which included models are.
 pub(super) fn in_folder(text: &str, folder: Option<&Path>) -> Result<Robot, ImportError> {
     let mut root = Element::read(text, "")?;
-    root.include(folder, 0)?;
+    root.include(folder, 0, &mut 0)?;
     let worlds: Vec<&Element> = root.children.iter().filter(|child| child.tag == "world").collect();
     let top = match worlds[..] {
         [] => &root,
