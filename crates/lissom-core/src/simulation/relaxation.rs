@@ -49,11 +49,12 @@ pub(crate) fn may_help(error: &StepError, system: &System, state: &State, solver
     match error {
         StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. } => true,
         // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are rejected;
-        // an iterate far from the start may be singular without being one.
+        // what bends may be singular in an iterate far from the start without being one.
         StepError::ZeroPivot { .. } => {
             let is_slack = |spring: &dyn Spring| spring.slack(&state.kinematics).is_some();
             system.elements_with(|own| own.spring).any(is_slack)
-                || free_motion(system, state, solver).is_none()
+                || system.elements_with(|own| own.deformation).next().is_some()
+                    && free_motion(system, state, solver).is_none()
         }
         _ => false,
     }
