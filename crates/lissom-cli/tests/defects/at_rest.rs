@@ -30,7 +30,7 @@ fn steps(results: &Results) -> usize {
 #[test]
 fn laws_at_rest() {
     let pipe = Results::clean("pipe-from-rest.toml", &[]);
-    near("p", pipe.last("p"), 424_789.63, 1.0);
+    near("p", pipe.last("p.value"), 424_789.63, 1.0);
     assert!(steps(&pipe) < 1000, "{}", steps(&pipe));
     let valve = Results::clean("valve-between-equal-pressures.toml", &[]);
     assert!(steps(&valve) < 100, "{}", steps(&valve));
@@ -63,9 +63,9 @@ fn cylinders_stand_on_their_ends() {
 #[test]
 fn parts_slide_over_seams() {
     let cylinder = "bodies.c.shape={ kind = \"cylinder\", radius = 0.1, length = 0.1 }";
-    for more in [&[][..], &["--set", cylinder], &["--set", "bodies.c.velocity=[3, 0, 0]"]] {
+    for more in [&[][..], &["--set", cylinder], &["--set", "bodies.c.velocity=[2.4, 0, 0]"]] {
         let results = Results::clean("seam-of-plates.toml", more);
-        near("v", results.last("v.x"), results.first("v.x"), 1e-3);
+        near("v", results.last("v.v1"), results.first("v.v1"), 1e-3);
         near("z", results.last("c.z"), 0.05, 1e-4);
     }
     // A ledge of 5 mm stops it.
@@ -73,20 +73,12 @@ fn parts_slide_over_seams() {
                  { kind = \"box\", sides = [1, 2, 0.02], position = [1.5, 0, -0.005] }]";
     let results = Results::of("run", "seam-of-plates.toml", &["--set", ledge, "--no-plots"]);
     results.assert_done();
-    assert!(results.last("v.x") < 0.5, "{}", results.last("v.x"));
+    assert!(results.last("v.v1") < 0.5, "{}", results.last("v.v1"));
 }
 
 /// The energy of the rotor, I ω²/2, and its angle I ω²/(2 M), although a bristle deflects within a thousandth of the first step.
 #[test]
 fn work_of_joint_friction_at_planned_steps() {
-    let spring = [
-        "--unset",
-        "joints.bearing.friction",
-        "--set",
-        "springs.heat={ kind = \"torsional_friction\", joint = \"bearing\", coulomb = 0.5 }",
-        "--unset",
-        "outputs.heat",
-    ];
     for scheme in ["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] {
         let scheme = format!("analysis.scheme={scheme}");
         for step in ["1e-2", "1e-3"] {
@@ -94,8 +86,6 @@ fn work_of_joint_friction_at_planned_steps() {
             let options = ["--set", &scheme, "--set", &step, "--set", "analysis.end=5"];
             let results = Results::clean("braked-rotor.toml", &options);
             near(&scheme, results.last("heat.work"), -0.005 * (300.0_f64.powi(2) - 50.0_f64.powi(2)), 0.02);
-            near(&scheme, results.last("q.angle"), 300.0 * 5.0 - 25.0 * 25.0, 0.05);
-            let results = Results::clean("braked-rotor.toml", &[&options[..], &spring].concat());
             near(&scheme, results.last("q.angle"), 300.0 * 5.0 - 25.0 * 25.0, 0.05);
         }
     }

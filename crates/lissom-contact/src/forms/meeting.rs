@@ -68,10 +68,12 @@ pub struct Meeting {
     pub sides: [usize; 2],
     /// Their axes in those of the bodies.
     pub frames: [Motion; 2],
+    /// Whether the tip is a fixed point of a flat end, to which an edge that is flush with what it stands on is no obstacle.
+    pub stands: bool,
 }
 
 /// The points at which two solids may touch; none if that is not available. With `stands` ends of cylinders have fixed points beside
-/// their rims, whose nearest point runs round where they lie flat.
+/// their rims, whose nearest point travels where they lie flat.
 ///
 /// # Errors
 /// If one is a mesh that encloses no solid.
@@ -93,7 +95,12 @@ pub fn meetings(solids: [&PlacedSolid; 2], stands: bool) -> Result<Option<Vec<Me
         let [base, tip] = sides.map(|side| solids[side]);
         let edges = [base, tip].map(|own| if is_rounded { edge_rounding(&own.form) } else { 0.0 });
         let found = touching(&base.form, (&tip.form, parts), edges)?.into_iter();
-        let of = |(pair, place)| Meeting { pair, sides, frames: [base.frame, tip.frame * place] };
+        let of = |(pair, place)| Meeting {
+            pair,
+            sides,
+            frames: [base.frame, tip.frame * place],
+            stands: parts == Parts::Stands,
+        };
         all.extend(found.map(of));
     }
     Ok(Some(all))

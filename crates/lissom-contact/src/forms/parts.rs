@@ -37,7 +37,7 @@ pub(super) enum Parts {
     Rims,
     /// Rims and crowned side of a cylinder.
     Round,
-    /// Points on the ends of a cylinder, which do not run round its rims.
+    /// Points on the ends of a cylinder, which do not travel along its rims.
     Stands,
     /// A smooth outline.
     Curve,

@@ -11,7 +11,7 @@ const OVERLAP: f64 = 0.1;
 /// Penetration that no force explains, as a multiple of the one that a force explains, at which it is reported.
 const UNEXPLAINED: f64 = 10.0;
 /// The least of those, as a fraction of the size of both solids: forces of parts that lift off vanish.
-const EXPLAINED: f64 = 1e-4;
+const EXPLAINED: f64 = 1e-3;
 
 /// Change of a penetration in a step, relative to it, below which the parts rest.
 const AT_REST: f64 = 1e-3;

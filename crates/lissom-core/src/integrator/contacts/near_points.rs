@@ -274,7 +274,8 @@ fn hidden(
     let is_hidden = |point: &TouchPoint| {
         let (meeting, _) = &meetings[point.key.point as usize];
         // The path of a ball is followed.
-        if point.phase == Phase::Lasting || is_round(meeting) || is_first && point.gap() <= 0.0 {
+        let is_followed = is_round(meeting) && !meeting.stands;
+        if point.phase == Phase::Lasting || is_followed || is_first && point.gap() <= 0.0 {
             return false;
         }
         let [normal, velocity] = point.motion_of_second(start, nodes);

@@ -59,7 +59,7 @@ pub(super) fn points_of_solids<'d>(
         let [first, second] = parts.map(|part| solids(document, &part.value));
         let mut number = 0;
         for solids in first.iter().flat_map(|one| second.iter().map(move |other| [one, other])) {
-            for Meeting { pair, sides, frames } in meetings_of(entry, solids)? {
+            for Meeting { pair, sides, frames, .. } in meetings_of(entry, solids)? {
                 let carried = |k: usize| CarriedFrame { node: nodes[sides[k]], offset: frames[k] };
                 let sign = if sides == [0, 1] { 1.0 } else { -1.0 };
                 let is_first = parts[0].value == entry.between[0].value;
