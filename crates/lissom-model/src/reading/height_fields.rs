@@ -18,6 +18,11 @@ use crate::text::{Node, Value};
 /// Classes of roads in ISO 8608, from the smoothest; each is four times as rough as the one before.
 const CLASSES: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
 
+/// Largest number of heights in a sum.
+const MAX_HEIGHTS: usize = 16;
+/// Length over which a random profile rises [m].
+const RISE: f64 = 5.0;
+
 /// Keys of a height field.
 fn height_keys() -> Vec<Key> {
     let mut keys = table_keys();
@@ -25,8 +30,8 @@ fn height_keys() -> Vec<Key> {
         unitless("grid", Shape::Text, "a text file: the first line is `x` and the values of y, each further line x and the heights there"),
         unitless("class", choice(&CLASSES), "class of a random profile over x in ISO 8608"),
         unitless("seed", Shape::Count(0, 1 << 53), "which of the random profiles").or_count(1),
-        optional("length", Shape::Positive, "m", "length of the random profile").or_number(500.0),
-        optional("start", Shape::Number, "m", "x at which the random profile begins; it rises over 5 m").or_number(0.0),
+        optional("length", Shape::Positive, "m", "length after which the random profile repeats").or_number(500.0),
+        optional("start", Shape::Number, "m", "x at which the random profile begins, after a plane; it rises over 5 m").or_number(0.0),
     ]);
     keys
 }
@@ -44,11 +49,31 @@ impl ForceFunction for Sum {
     }
 }
 
+/// A random profile, which is zero up to its start, rises, and repeats.
+#[derive(Debug)]
+struct RandomProfile {
+    table: Table,
+    start: f64,
+}
+
+impl ForceFunction for RandomProfile {
+    fn evaluate(&self, x: f64, y: f64) -> [f64; 3] {
+        let part = ((x - self.start) / RISE).clamp(0.0, 1.0);
+        let [rise, slope] = [part * part * (3.0 - 2.0 * part), 6.0 * part * (1.0 - part) / RISE];
+        let [height, by_x, _] = ForceFunction::evaluate(&self.table, x, y);
+        [rise * height, rise * by_x + slope * height, 0.0]
+    }
+}
+
 impl Context<'_> {
     /// A height over `x` and `y`.
     pub(crate) fn height_field(&self, node: &Node, what: &str) -> Option<Force> {
         match &node.value {
             Value::List(list) => {
+                if list.len() > MAX_HEIGHTS || list.iter().any(|part| matches!(part.value, Value::List(_))) {
+                    let message = format!("{what} is a list of more than {MAX_HEIGHTS} heights, or of lists");
+                    return self.fail(node.span, message, "add heights in one expression, table or grid");
+                }
                 let parts: Vec<_> = list.iter().map(|part| self.height_field(part, what)).collect();
                 Some(Arc::new(Sum(parts.into_iter().collect::<Option<_>>()?)))
             }
@@ -70,7 +95,7 @@ impl Context<'_> {
                     return self.fail(node.span, message, "add `class = \"C\"`, or remove it");
                 }
                 if reader.has("class") {
-                    return self.random_profile(&reader, node).map(|table| Arc::new(table) as Force);
+                    return self.random_profile(&reader, node).map(|profile| Arc::new(profile) as Force);
                 }
                 match reader.node("grid") {
                     Some(file) => self.grid(&reader, file).map(|family| Arc::new(family) as Force),
@@ -112,7 +137,7 @@ impl Context<'_> {
         })
     }
 
-    fn random_profile(&self, reader: &Reader<'_, '_>, node: &Node) -> Option<Table> {
+    fn random_profile(&self, reader: &Reader<'_, '_>, node: &Node) -> Option<RandomProfile> {
         let class = reader.choice("class")?.value;
         let (length, start) = (reader.number("length")?.value, reader.number("start")?.value);
         let seed = reader.count("seed")?.value as f64;
@@ -125,8 +150,9 @@ impl Context<'_> {
     }
 }
 
-/// A sum of waves with random phases, whose spectrum over the spatial frequency is that of a class, from zero.
-fn random_profile(grade: i32, seed: f64, [start, length]: [f64; 2]) -> Option<Table> {
+/// A sum of waves with random phases, whose spectrum over the spatial frequency is that of a class. All of them have the period `length`:
+/// the frequencies are rounded to multiples of its reciprocal, and waves longer than twice the length are omitted.
+fn random_profile(grade: i32, seed: f64, [start, length]: [f64; 2]) -> Option<RandomProfile> {
     // G(n₀) [m³] at n₀ = 0.1/m; G(n) = G(n₀) (n₀/n)² from 0.01 to 5 waves per metre, at 400 frequencies in geometric progression.
     let roughness = 16e-6 * 4_f64.powi(grade);
     let growth = (5.0_f64 / 0.01).ln() / 400.0;
@@ -135,23 +161,23 @@ fn random_profile(grade: i32, seed: f64, [start, length]: [f64; 2]) -> Option<Ta
             let frequency = 0.01 * (growth * (f64::from(k) + 0.5)).exp();
             let density = roughness * (0.1 / frequency).powi(2);
             let phase = TAU * noise::uniform(seed, f64::from(k));
-            [(2.0 * density * growth * frequency).sqrt(), TAU * frequency, phase]
+            [(2.0 * density * growth * frequency).sqrt(), TAU * (frequency * length).round() / length, phase]
         })
+        .filter(|[_, number, _]| *number > 0.0)
         .collect();
     // Ten points of the shortest wave.
     let count = (length / 0.02).ceil() as usize;
     let rows: Vec<(f64, f64)> = (0..=count)
         .map(|index| {
-            let x = length * index as f64 / count as f64;
-            let rise = |x: f64| (x / 5.0).clamp(0.0, 1.0);
-            let part = rise(x).min(rise(length - x));
-            let smooth = part * part * (3.0 - 2.0 * part);
+            // The last row is the first one of the next period.
+            let x = if index == count { 0.0 } else { length * index as f64 / count as f64 };
             let height: f64 =
                 waves.iter().map(|[size, number, phase]| size * (number * x + phase).cos()).sum();
-            (start + x, smooth * height)
+            (start + length * index as f64 / count as f64, height)
         })
         .collect();
-    Table::new(&rows, Interpolation::Spline, Extrapolation::Constant).ok()
+    let table = Table::new(&rows, Interpolation::Spline, Extrapolation::Periodic).ok()?;
+    Some(RandomProfile { table, start })
 }
 
 #[cfg(test)]

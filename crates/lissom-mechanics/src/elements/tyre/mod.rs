@@ -37,12 +37,13 @@ use super::{Capabilities, Element, ForceLaws, Load, Spring, Tangents, Unknowns, 
 use crate::dual::{Dual, Number, cross, dot, sum, times};
 use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
-use crate::kinematics::{CoordinateId, Kinematics, Switch};
+use crate::kinematics::{CoordinateId, Kinematics, Subject, Switch};
 use crate::ports::Ports;
 use crate::registry::ParameterType::{
     Choice, Coefficients, Direction, DirectionOr, HeightField, NotNegative, Positive,
 };
 use crate::registry::{ModelAxis, ParameterError, Parameters, optional, required, unitless};
+use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
 use crate::wheels::wheel_on_rail::Pose;
 
@@ -203,6 +204,8 @@ pub const KIND: ElementKind = ElementKind {
 #[derive(Clone, Debug)]
 pub struct Tyre {
     frames: FramePair,
+    /// Name of the wheel.
+    wheel: String,
     /// Deflections of the tread along and across the rolling.
     states: [CoordinateId; 2],
     /// a, in the tip's axes.
@@ -255,6 +258,7 @@ fn build(
     });
     Ok(contribution.with(Tyre {
         frames: FramePair::new(frames),
+        wheel: model.nodes[frames[1].node].name.clone(),
         states,
         axis,
         ground: Ground::new(height.signum(), radius, parameters)?,
@@ -310,7 +314,8 @@ impl Tyre {
         let rolling = dot(along, velocity) + spin * loaded;
         let slides = [rolling - spin * effective, dot(across, velocity)];
         let pressed = self.law.normal(depth, deepening);
-        if !touches || pressed.value() <= 0.0 {
+        // A height that is not a number is none of a road below the tyre: the forces are NaN, which fails.
+        if !depth.value().is_nan() && (!touches || pressed.value() <= 0.0) {
             // Deflections vanish in the air within some 50 ms.
             let falling = states.map(|state| state.scaled(20.0));
             return Touch { normal: [depth, deepening, zero], wrench: [zero; 6], falling, slip: [zero; 6] };
@@ -473,6 +478,16 @@ impl Element for Tyre {
 impl Load for Tyre {
     fn depends_on_motion(&self) -> bool {
         true
+    }
+
+    fn check(&self, at: &Kinematics) -> Result<(), SignalError> {
+        let relative = self.frames.relative(at);
+        let depth = self.depth(&relative.rotation.matrix(), &relative.position);
+        if depth.is_finite() {
+            return Ok(());
+        }
+        let signal = Subject::new("node", &self.wheel).called(format!("`road` under `{}`", self.wheel));
+        Err(SignalError { signal, value: depth, time: at.time })
     }
 }
 
