@@ -51,6 +51,9 @@ impl Tyre {
             let words = format!("warning: coefficients that are not used: {}\n", read.unused.join(", "));
             terminal::complain(&words);
         }
+        if let Some(warning) = curves.warning() {
+            terminal::complain(&format!("warning: {warning}\n"));
+        }
         terminal::print(&curves.text());
         let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(stem));
         files::create_folder(&folder).map_err(|error| Failure::new(Exit::Failed, &error))?;

@@ -613,6 +613,27 @@ diagnostics! {
                 forces are proportional to the load: a real tyre has less friction.",
             advice: "Look for the cause of the load, such as a stiff stop or an impact, or use a file of a larger tyre.",
         }
+        /// The road under a tyre is far from the plane that replaces it.
+        RoadBeyondContact {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of its wheel.
+            part: String,
+            /// Standard deviation of the road from the plane within the contact [m].
+            deviation: f64,
+            /// Largest deviation that the model resolves [m].
+            limit: f64,
+        } => "road-beyond-contact" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at t = {time} s the road under the tyre of `{part}` deviates by {deviation:.3} m from a plane within the contact, more than the \
+                    {limit:.3} m that the tyre's model resolves: a step or an obstacle is replaced by an inclined plane"),
+            remedy: "extend the step of the road over a greater length than that of the contact, or model the obstacle with a contact",
+            meaning: "A tyre is on the plane that fits the heights of the road within its contact best. The standard deviation from this plane exceeds \
+                three hundredths of the radius: at steps and short obstacles the forces are not those of a tyre with a belt.",
+            advice: "Extend the step of the road over a greater length than that of the contact, or use a rigid contact for the obstacle. A short \
+                `contact_length` follows the road more closely.",
+        }
         /// A wheel that rolls is pulled by its plane.
         WheelLifts {
             /// When it was first detected [s].

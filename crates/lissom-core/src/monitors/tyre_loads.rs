@@ -1,28 +1,31 @@
-//! Whether tyres carry loads for which they have data.
+//! Whether tyres carry loads for which they have data, on roads that their contact resolves.
 
 use super::monitor::{Accepted, Beginning, Monitor};
+use crate::elements::Spring;
 use crate::errors::{Warning, warn};
 
-/// Reports the first tyre whose load is too large. Has no state.
+/// Reports the first tyre whose load is too large, and the first one on a road that is too uneven. Has no state.
 struct TyreLoads;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let mut springs = beginning.problem.system.elements_with(|own| own.spring);
-    let has_data = springs.any(|spring| spring.largest_load().is_some());
-    has_data.then(|| Box::new(TyreLoads) as Box<dyn Monitor>)
+    let has_tyres = springs.any(Spring::has_slip);
+    has_tyres.then(|| Box::new(TyreLoads) as Box<dyn Monitor>)
 }
 
 impl Monitor for TyreLoads {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let (system, at) = (step.problem.system, &step.end.kinematics);
-        let beyond = system.elements_with(|own| own.spring).find_map(|spring| {
-            let limit = spring.largest_load()?;
-            let load = spring.slip(at)[4];
-            let part = || system.layout().name_of_node(spring.unknowns().nodes[1]).to_owned();
-            (load > limit).then(|| Warning::TyreBeyondData { time: at.time, part: part(), load, limit })
-        });
-        if let Some(warning) = beyond {
-            warn(warnings, warning);
+        for tyre in system.elements_with(|element| element.spring).filter(|spring| spring.has_slip()) {
+            let part = || system.layout().name_of_node(tyre.unknowns().nodes[1]).to_owned();
+            let [[load, limit], [deviation, largest]] = tyre.tyre_limits(at);
+            if load > limit {
+                warn(warnings, Warning::TyreBeyondData { time: at.time, part: part(), load, limit });
+            }
+            if deviation > largest {
+                let (part, limit) = (part(), largest);
+                warn(warnings, Warning::RoadBeyondContact { time: at.time, part, deviation, limit });
+            }
         }
     }
 }

@@ -130,9 +130,10 @@ pub trait Spring: Element {
         [f64::NAN; 6]
     }
 
-    /// Largest normal force for which a tyre has data [N]. Default: there are none.
-    fn largest_load(&self) -> Option<f64> {
-        None
+    /// Normal force of a tyre [N] with the largest one of its data, and the deviation of the road from a plane within its contact [m] with the
+    /// largest one that its model resolves. Default: it is no tyre.
+    fn tyre_limits(&self, _at: &Kinematics) -> [[f64; 2]; 2] {
+        [[0.0, f64::INFINITY]; 2]
     }
 
     /// Derivatives of these numbers with respect to its local unknowns. Default: it is no tyre.

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use lissom_mechanics::elements::tyre::SIDE;
-use lissom_mechanics::elements::tyre::magic_formula::COEFFICIENTS;
+use lissom_mechanics::elements::tyre::magic_formula::{COEFFICIENTS, OF_MF_TYRE};
 
 /// What a file says of a tyre.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TyreFile {
-    /// Coefficients [SI], by name, with the side of the vehicle on which the tyre was measured.
+    /// Coefficients [SI], by name, with the side of the vehicle on which the tyre was measured and the convention of signs.
     pub coefficients: BTreeMap<String, f64>,
     /// Coefficients that are not zero and that the model does not use.
     pub unused: Vec<String>,
@@ -99,6 +99,10 @@ pub fn tyre_file(text: &str) -> Result<TyreFile, TyreFileError> {
     let mut read = TyreFile::default();
     if word("TYRESIDE").is_some_and(|side| side.eq_ignore_ascii_case("right")) {
         read.coefficients.insert(SIDE.to_owned(), -1.0);
+    }
+    // Not `FITTYP`, which files of PAC2002 may also have.
+    if word("PROPERTY_FILE_FORMAT").is_none_or(|format| !format.eq_ignore_ascii_case("PAC2002")) {
+        read.coefficients.insert(OF_MF_TYRE.to_owned(), 1.0);
     }
     let pressures = [word("IP"), word("IP_NOM")].map(|word| word.and_then(number));
     let is_at_nominal_pressure = pressures[0].is_none() || pressures[0] == pressures[1];

@@ -31,12 +31,12 @@ impl TyreCurves {
     /// The tyre of a file under normal forces [N], by default half, once and one and a half times the nominal one, with a camber [rad].
     ///
     /// # Errors
-    /// If the file lacks a coefficient, or a normal force is not positive.
+    /// If the file lacks a coefficient, a normal force is not positive, or a force is not finite.
     pub fn new(name: &str, file: &TyreFile, loads: &[f64], camber: f64) -> Result<Self, String> {
         let law = MagicFormula::new(&file.coefficients, false)
             .map_err(|error| error.problem.replace("needs", "it needs"))?;
-        if let Some(load) = loads.iter().find(|load| **load <= 0.0) {
-            return Err(format!("the normal force {load} N is not positive"));
+        if let Some(load) = loads.iter().find(|load| !(load.is_finite() && **load > 0.0)) {
+            return Err(format!("the normal force {load:?} N is not positive and finite"));
         }
         let nominal = law.nominal_load();
         let loads = if loads.is_empty() {
@@ -44,7 +44,23 @@ impl TyreCurves {
         } else {
             loads.to_vec()
         };
-        Ok(Self { velocity: law.measured_velocity(), law, name: name.to_owned(), loads, camber })
+        let curves = Self { velocity: law.measured_velocity(), law, name: name.to_owned(), loads, camber };
+        let points = curves.points();
+        match points.iter().find(|point| point.forces.iter().any(|force| !force.is_finite())) {
+            Some(Point { load, slip: [slip, angle], .. }) => Err(format!(
+                "its coefficients have no finite forces at the normal force {load:?} N, slip {slip}, slip angle {angle} rad and camber {camber} rad"
+            )),
+            None => Ok(curves),
+        }
+    }
+
+    /// A warning of normal forces beyond those for which the file has data.
+    pub fn warning(&self) -> Option<String> {
+        let [low, high] = [self.law.smallest_load(), self.law.largest_load()];
+        let load = self.loads.iter().find(|load| !(low..=high).contains(*load))?;
+        Some(format!(
+            "the normal force {load:?} N is beyond those for which the file has data, {low:.0} to {high:.0} N: the forces are extrapolated"
+        ))
     }
 
     fn at(&self, load: f64, slip: [f64; 2]) -> Point {
@@ -71,12 +87,17 @@ impl TyreCurves {
         self.loads.iter().map(curve).collect()
     }
 
+    /// The points of the table.
+    fn points(&self) -> Vec<Point> {
+        let curves = self.over_slip(&[0.0, 0.05, 0.1, 0.2]).into_iter().chain(self.over_angle());
+        curves.flatten().collect()
+    }
+
     /// The table `tyre.csv`: normal force, slip, slip angle [rad], longitudinal and lateral force, moments about x, y and z.
     pub fn csv(&self) -> String {
         let mut text =
             "load,slip,slip_angle,longitudinal,lateral,overturning,resisting,aligning\n".to_owned();
-        let angles = [0.0, 0.05, 0.1, 0.2];
-        for point in self.over_slip(&angles).iter().chain(&self.over_angle()).flatten() {
+        for point in self.points() {
             let numbers = [point.load, point.slip[0], point.slip[1]].into_iter().chain(point.forces);
             let cells: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
             // Writing to a string cannot fail.

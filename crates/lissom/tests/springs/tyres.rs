@@ -1,7 +1,9 @@
 //! Tyres: slip curves against the brush model, build-up, standstill, a vehicle in a turn.
 
 use lissom::Model;
+use lissom::analyses::tyre_curves::TyreCurves;
 use lissom::core::elements::tyre::magic_formula::MagicFormula;
+use lissom::core::errors::Warning;
 use lissom::model::files::tyre_file::tyre_file;
 use lissom::model::output::Record;
 
@@ -376,12 +378,145 @@ fn a_vehicle_that_stops_with_locked_wheels_swings_back_by_the_tread_alone() {
     let model = page.split("```toml\n").find(|part| part.starts_with("lissom = 1")).expect("a model");
     let record = run(model.split("```").next().expect("a model"), &[("analysis.end", 4.0)]);
     let speed = record.column("car", "v1").expect("a column");
-    // The energy of the tread, μ N σ ε_s (3/4), as kinetic energy.
-    let energy: f64 = 0.8 * 320.0 * 9.81 * 0.15 * (3.0 * 0.8 / 20.0) * 0.75;
-    let bound = (2.0 * energy / 320.0).sqrt();
+    // The energy of the tread as a spring of the slip stiffness over the relaxation length, F²/(2 C), as kinetic energy.
+    let (force, stiffness): (f64, f64) = (0.8 * 320.0 * 9.81, 20.0 * 320.0 * 9.81 / 0.15);
+    let bound = force / (stiffness * 320.0).sqrt();
     let least = speed.iter().copied().fold(0.0, f64::min);
     assert!(least > -bound, "{least}, {bound}");
     assert!(speed.last().expect("rows").abs() < 1e-3);
+}
+
+/// A locked wheel with a quarter of a car at a speed until it stands, on a tyre of the file.
+fn stop(speed: f64, scheme: &str) -> Record {
+    let text = format!(
+        r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.car]
+mass = 320
+inertia = [10, 50, 50]
+position = [0, 0, 0.301304]
+[joints.plane]
+kind = "generic"
+base = "ground"
+tip = "car"
+locked = ["y", "rx", "ry", "rz"]
+[springs.tyre]
+kind = "tyre"
+base = "ground"
+tip = "car"
+at_base = [0, 0, 0]
+normal = [0, 0, 1]
+wheel_axis = [0, 1, 0]
+magic_formula = "parts/passenger-car.tir"
+[initial]
+velocity = [{speed}, 0, 0]
+[outputs.car]
+kind = "displacement"
+of = "car"
+[outputs.speed]
+kind = "velocity"
+of = "car"
+[outputs.tyre]
+kind = "tyre"
+of = "tyre"
+[analysis]
+kind = "dynamics"
+scheme = "{scheme}"
+end = 4
+relative_tolerance = 1e-6
+"#
+    );
+    let mut session = Model::from_text(BESIDE, &text).session().unwrap_or_else(|error| panic!("{error}"));
+    session.run().unwrap_or_else(|error| panic!("{error}")).into_record()
+}
+
+/// Whatever the speed, not more comes back than the tread stores: F²/(2 C), C = 134 kN/m slip stiffness over relaxation length.
+#[test]
+fn a_locked_wheel_with_a_file_swings_back_by_the_tread_alone() {
+    let law = MagicFormula::new(&tyre_file(FILE).expect("a tyre property file").coefficients, false);
+    let law = law.expect("a tyre");
+    let load = 320.0 * 9.81;
+    let pull = |slip: f64| law.forces([slip, 0.0, 0.0], load, 10.0)[0];
+    let stiffness = (pull(1e-4) - pull(-1e-4)) / 2e-4 / law.relaxation(load, 0.0)[0];
+    for (speed, scheme) in [(15.0, "radau-iia-9"), (3.0, "radau-iia-9"), (1.0, "radau-iia")] {
+        let record = stop(speed, scheme);
+        let column = |name, component| record.column(name, component).expect("a column");
+        let (place, back) = (column("car", "u1"), column("speed", "v1"));
+        let largest =
+            column("tyre", "longitudinal").iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+        let least = back.iter().copied().fold(0.0, f64::min);
+        assert!(least > -largest / (stiffness * 320.0).sqrt(), "{speed}: {least}");
+        let furthest = place.iter().copied().fold(f64::MIN, f64::max);
+        let at_end = *place.last().expect("rows");
+        // The tread slides at its largest deflection, which is somewhat beyond the force over the stiffness.
+        assert!(furthest - at_end < 1.4 * largest / stiffness, "{speed}: {furthest} {at_end}");
+    }
+}
+
+/// The sign of PTX3 is that of the format of the file, whatever its FITTYP; other values of a model have the signs of its file.
+#[test]
+fn files_of_mf_tyre_have_another_sign_of_the_relaxation_length() {
+    let lengths = |format: &str| {
+        let text = FILE.replace("PROPERTY_FILE_FORMAT = 'PAC2002'", format);
+        let mut file = tyre_file(&text).expect("a tyre property file");
+        file.coefficients.insert("PTX3".to_owned(), 0.6);
+        let law = MagicFormula::new(&file.coefficients, false).expect("a tyre");
+        [2000.0, 4000.0, 6000.0].map(|load| law.relaxation(load, 0.0)[0])
+    };
+    let near = |found: [f64; 3], wanted: [f64; 3]| {
+        assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?} for {wanted:?}");
+    };
+    for number in [5, 6, 52] {
+        let format = format!("PROPERTY_FILE_FORMAT = 'MF-TYRE'\nFITTYP = {number}");
+        near(lengths(&format), [0.374, 0.602, 0.722]);
+    }
+    for format in ["PROPERTY_FILE_FORMAT = 'PAC2002'", "PROPERTY_FILE_FORMAT = 'PAC2002'\nFITTYP = 6"] {
+        near(lengths(format), [0.205, 0.602, 1.316]);
+    }
+}
+
+#[test]
+fn friction_with_a_negative_sign_is_the_same_tyre() {
+    let law = |from: [&str; 2], to: [&str; 2]| {
+        let text = FILE.replace(from[0], to[0]).replace(from[1], to[1]);
+        MagicFormula::new(&tyre_file(&text).expect("a tyre property file").coefficients, false)
+            .expect("a tyre")
+    };
+    let [first, second] = ["PDY1 = 1.0", "PDY2 = -0.13"];
+    let [usual, negative] =
+        [[first, second], ["PDY1 = -1.0", "PDY2 = 0.13"]].map(|to| law([first, second], to));
+    for slip in [[0.0, 0.05, 0.02], [0.1, -0.2, 0.0]] {
+        assert_eq!(usual.forces(slip, 5000.0, 20.0), negative.forces(slip, 5000.0, 20.0));
+    }
+}
+
+/// `lissom tyre`: what the file has no data for is a warning, and what has no finite value an error.
+#[test]
+fn curves_of_a_tyre_are_finite_and_within_its_data() {
+    let file = tyre_file(FILE).expect("a tyre property file");
+    let curves = |loads: &[f64], camber| TyreCurves::new("car", &file, loads, camber);
+    let warning = |load| curves(&[load], 0.0).expect("curves").warning();
+    assert_eq!(warning(4000.0), None);
+    assert!(warning(20000.0).is_some_and(|text| text.contains("20000.0 N") && text.contains("9000 N")));
+    assert!(warning(100.0).is_some_and(|text| text.contains("200 to")));
+    for (load, camber) in [(f64::NAN, 0.0), (f64::INFINITY, 0.0), (1e300, 0.0), (4000.0, f64::NAN)] {
+        assert!(curves(&[load], camber).is_err(), "{load} {camber}");
+    }
+}
+
+/// A step of the road within the contact is no plane.
+#[test]
+fn a_step_of_the_road_within_the_contact_is_reported() {
+    let codes = |road: &str| {
+        let text = RIG.replace("radius = 0.3\n", &format!("radius = 0.3\nroad = \"{road}\"\n"));
+        let mut session = Model::from_text("model.toml", &text).session().expect("a session");
+        // The step is too high for some runs.
+        let _ = session.run();
+        session.warnings().map(Warning::code).collect::<Vec<_>>()
+    };
+    assert!(codes("0.15*smoothstep((x - 0.5)/0.02)").contains(&"road-beyond-contact"));
+    assert!(!codes("0.15*smoothstep((x - 0.5)/1.5)").contains(&"road-beyond-contact"));
 }
 
 /// On a slope that is a road the plane of the tyre is the slope, also across it.

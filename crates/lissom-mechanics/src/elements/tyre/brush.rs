@@ -46,12 +46,17 @@ impl Brush {
         })
     }
 
+    /// μ under a normal force.
+    pub(super) fn friction<T: Number>(&self, normal: T) -> T {
+        T::constant(self.friction[0]) / normal.scaled(self.friction[1]).plus(1.0)
+    }
+
     pub(super) fn tread<T: Number>(&self, slip: &Slip<T>) -> Tread<T> {
         let [along, across, camber] = self.slip;
         let normal = slip.normal;
         let pull = [slip.along.scaled(along), -slip.across.scaled(across) - slip.lean.scaled(camber)];
         let size = (pull[0] * pull[0] + pull[1] * pull[1]).plus(1e-24).square_root();
-        let friction = T::constant(self.friction[0]) / normal.scaled(self.friction[1]).plus(1.0);
+        let friction = self.friction(normal);
         let part = size / friction.scaled(3.0);
         let zero = T::constant(0.0);
         let resisting = (normal * slip.turning).scaled(-self.resistance);

@@ -38,6 +38,9 @@
 //! σ_κ = F_z (PTX1 + PTX2 d) exp(PTX3 d) R₀/F_z0 LSGKP,    σ_α = PTY1 sin(2 arctan(F_z/(PTY2 F_z0)))(1 - PKY3 |γ_y|) R₀ LFZO LSGAL
 //! ```
 //!
+//! PTX3 has the other sign in files of MF-Tyre 5.2, and a pair PDX1, PDX2 or PDY1, PDY2 of which the first is negative has the other signs: D and B
+//! are then negative, which is the same force.
+//!
 //! d stays within the loads FZMIN to FZMAX of the measurements, and below those at which a friction or stiffness vanishes; κ stays within KPUMIN to KPUMAX.
 
 use std::collections::BTreeMap;
@@ -46,6 +49,9 @@ use std::f64::consts::FRAC_2_PI;
 use super::tread::{Slip, Tread};
 use crate::dual::Number;
 use crate::registry::ParameterError;
+
+/// Key in the coefficients of a file with the signs of MF-Tyre 5.2.
+pub const OF_MF_TYRE: &str = "FITTYP";
 
 /// Coefficients of a file, by index.
 macro_rules! coefficients {
@@ -152,6 +158,16 @@ impl MagicFormula {
             values,
             side: if is_mirrored { -1.0 } else { 1.0 },
         };
+        for (constant, slope) in [(PDX1, PDX2), (PDY1, PDY2)] {
+            if law.of(constant) < 0.0 {
+                for name in [constant, slope] {
+                    law.values[name as usize] *= -1.0;
+                }
+            }
+        }
+        if given.contains_key(OF_MF_TYRE) {
+            law.values[PTX3 as usize] *= -1.0;
+        }
         for name in [
             UNLOADED_RADIUS,
             FNOMIN,
@@ -159,9 +175,11 @@ impl MagicFormula {
             LCZ,
             LONGVL,
             PCX1,
+            LCX,
             PDX1,
             PKX1,
             PCY1,
+            LCY,
             PDY1,
             PKY2,
             LMUX,
@@ -214,6 +232,11 @@ impl MagicFormula {
     /// Nominal normal force [N].
     pub fn nominal_load(&self) -> f64 {
         self.of(FNOMIN)
+    }
+
+    /// Smallest normal force for which there are data [N].
+    pub fn smallest_load(&self) -> f64 {
+        self.of(FZMIN)
     }
 
     /// Largest normal force for which there are data [N], or infinity.
@@ -290,11 +313,20 @@ impl MagicFormula {
         })
     }
 
-    pub(super) fn sliding(&self) -> [f64; 2] {
-        let along = self.of(PKX1) * self.of(LKX);
-        let across = self.of(PKY1) * (2.0 * (1.0 / self.of(PKY2)).atan()).sin() * self.of(LKY);
-        [(PDX1, LMUX, along), (PDY1, LMUY, -across)]
-            .map(|(friction, scale, slip)| 3.0 * self.of(friction) * self.of(scale) / slip)
+    pub(super) fn adhesion<T: Number>(&self, normal: T) -> [T; 2] {
+        let load = self.load(normal);
+        let [along, across] = self.stiffnesses(normal, load);
+        let friction = [(PDX1, PDX2, LMUX), (PDY1, PDY2, LMUY)]
+            .map(|(constant, slope, scale)| self.linear(constant, slope, load).scaled(self.of(scale)));
+        [friction[0] / along, -(friction[1] / across)]
+    }
+
+    /// K_x and K_y without camber, per normal force.
+    fn stiffnesses<T: Number>(&self, normal: T, load: T) -> [T; 2] {
+        let along = self.linear(PKX1, PKX2, load) * exponential(load.scaled(self.of(PKX3)));
+        let across =
+            self.over_load(normal, PKY2).scaled(self.of(PKY1) * self.nominal * self.of(LKY)) / normal;
+        [along.scaled(self.of(LKX)), across]
     }
 
     /// d, within the measured loads.
@@ -373,8 +405,7 @@ impl MagicFormula {
         let kappa_x = kappa + self.linear(PHX1, PHX2, load).scaled(of(LHX));
         let mu_x = self.linear(PDX1, PDX2, load) * (one - (gamma_x * gamma_x).scaled(of(PDX3)));
         let mu_x = mu_x.scaled(of(LMUX));
-        let stiffness_x = self.linear(PKX1, PKX2, load) * exponential(load.scaled(of(PKX3)));
-        let stiffness_x = stiffness_x.scaled(of(LKX));
+        let [stiffness_x, stiffness_y] = self.stiffnesses(normal, load);
         let shape_x = of(PCX1) * of(LCX);
         let curvature_x = self.quadratic([PEX1, PEX2, PEX3], load);
         let curvature_x = curvature_x.scaled((1.0 - of(PEX4) * kappa_x.value().signum()) * of(LEX));
@@ -388,7 +419,6 @@ impl MagicFormula {
         let alpha_y = alpha + shift_h;
         let mu_y = self.linear(PDY1, PDY2, load) * (one - (gamma_y * gamma_y).scaled(of(PDY3)));
         let mu_y = mu_y.scaled(of(LMUY));
-        let stiffness_y = self.over_load(normal, PKY2).scaled(of(PKY1) * self.nominal * of(LKY)) / normal;
         let stiffness_y = stiffness_y * (one - size(gamma_y).scaled(of(PKY3)));
         let shape_y = of(PCY1) * of(LCY);
         let uneven = self.linear(PEY3, PEY4, gamma_y).scaled(-alpha_y.value().signum()).plus(1.0);

@@ -6,14 +6,15 @@
 //!
 //! ```text
 //! δ = R cos γ - h,    N = max(0, k δ + d δ̇),    R_e = R - δ/3,    V = (x·v_P + Ω h/cos γ, y·v_P)
-//! s = (V₁ - Ω R_e, V₂),    w² = V₁² + (|l s| |l e/σ|²)²,    e' = -s - w e/σ,    ε = (e + τ e'/(1 + w/w₀))/σ
-//! l_k = f/ε_s,k + (1 - f)/3,    f = 1/(1 + (V₁² + |s|²)/w₀²)
+//! s = (V₁ - Ω R_e, V₂),    p = |l e/σ|,    w² = V₁² + |l s|² p⁸,    e' = -s - w e/σ
+//! ε = (1 + 4 f p⁸/(1 + p⁸)) (e + τ e'/(1 + w/w₀))/σ,    l_k = f/ε_a,k + (1 - f)/3,    f = 1/(1 + (V₁² + |s|²)/w₀²)
 //! ```
 //!
 //! [Pacejka 2012, chapters 7 and 8]. In steady rolling ε₁ is the longitudinal slip κ and -ε₂ the tangent of the slip angle, and a law gives the
-//! forces of the tread over them. At standstill the states keep the force, without creep. Before it w keeps the deflections within those at which the
-//! tread slides, ε_s: with more, a vehicle that stops with locked wheels would be thrown back. The longitudinal force acts at the effective radius
-//! R_e, at which the wheel rolls without it.
+//! forces of the tread over them. At standstill the states keep the force, without creep. Before it w keeps the deflections within σ ε_a, those of
+//! a spring of the slip stiffness under the friction, p ≤ 1: with more, a vehicle that stops with locked wheels would be thrown back. There 3 ε_a, at
+//! which a brush slides, is used as the slip, so that the force over the deflection is almost that of the spring. The longitudinal force acts at the
+//! effective radius R_e, at which the wheel rolls without it.
 //!
 //! An uneven road is replaced by the plane that fits its heights at points of the contact best.
 
@@ -27,7 +28,7 @@ use nalgebra::SMatrix;
 
 use self::brush::Brush;
 use self::magic_formula::MagicFormula;
-use self::road::Ground;
+use self::road::{Footing, Ground};
 use self::tread::{Law, Slip};
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
@@ -295,7 +296,7 @@ impl Tyre {
     ) -> Touch<T> {
         let [zero, one] = [0.0, 1.0].map(T::constant);
         let axis = pose.apply([0, 1, 2].map(|k| T::constant(self.axis[k])));
-        let (normal, height) = self.ground.under(pose, axis);
+        let Footing { normal, height, .. } = self.ground.under(pose, axis);
         let lean = dot(axis, normal);
         let cosine = (one - lean * lean).square_root();
         let depth = cosine.scaled(self.radius) - height;
@@ -322,11 +323,13 @@ impl Tyre {
         }
         let carried = rolling * rolling;
         let lengths = self.law.relaxation(pressed, lean);
-        let passing = self.passing(carried, slides, [0, 1].map(|k| states[k] / lengths[k]));
+        let limits = self.law.adhesion(pressed);
+        let bent = [0, 1].map(|k| states[k] / lengths[k]);
+        let [passing, stretch] = passing((carried, slides), bent, limits);
         // w₀ is 1 m/s.
         let fading = T::constant(self.damping_time) / passing.plus(1.0);
         let falling = [0, 1].map(|k| slides[k] + passing * states[k] / lengths[k]);
-        let slips = [0, 1].map(|k| (states[k] - fading * falling[k]) / lengths[k]);
+        let slips = [0, 1].map(|k| stretch * (states[k] - fading * falling[k]) / lengths[k]);
         // Below 0.3 m/s moments that depend on the direction of motion fade.
         let slow = 0.3;
         let slip = Slip {
@@ -353,20 +356,6 @@ impl Tyre {
         }
     }
 
-    /// w, from V₁², s and e/σ.
-    fn passing<T: Number>(&self, carried: T, slides: [T; 2], bent: [T; 2]) -> T {
-        let fast = carried + slides[0] * slides[0] + slides[1] * slides[1];
-        let slow = T::constant(1.0) / fast.plus(1.0);
-        let sliding = self.law.sliding();
-        let limits = [0, 1].map(|k| slow.scaled(1.0 / sliding[k] - 1.0 / 3.0).plus(1.0 / 3.0));
-        let square = |of: [T; 2]| {
-            let [first, second] = [0, 1].map(|k| limits[k] * of[k]);
-            first * first + second * second
-        };
-        let near = square(bent);
-        (carried + square(slides) * near * near).plus(f64::MIN_POSITIVE).square_root()
-    }
-
     fn touches(&self, at: &Kinematics, motion: &RelativeMotion) -> bool {
         is_on_upper_branch(self.switch_states.of(at).first(), self.depth(&motion.rotation, &motion.position))
     }
@@ -374,7 +363,7 @@ impl Tyre {
     fn depth(&self, rotation: &Matrix3, position: &Vector3) -> f64 {
         let pose = Pose::new(rotation, position);
         let axis = (rotation * self.axis).into();
-        let (normal, height) = self.ground.under(&pose, axis);
+        let Footing { normal, height, .. } = self.ground.under(&pose, axis);
         let lean = dot(axis, normal);
         (1.0 - lean * lean).max(0.0).sqrt() * self.radius - height
     }
@@ -396,6 +385,22 @@ impl Tyre {
         let touch = self.touch((&pose, &twist), states, self.touches(at, &motion));
         (motion, touch)
     }
+}
+
+/// w, and ε over that at a high velocity; from V₁² and s, e/σ and ε_a.
+fn passing<T: Number>((carried, slides): (T, [T; 2]), bent: [T; 2], adhesion: [T; 2]) -> [T; 2] {
+    let one = T::constant(1.0);
+    let fast = carried + slides[0] * slides[0] + slides[1] * slides[1];
+    let slow = one / fast.plus(1.0);
+    let limits = adhesion.map(|limit| slow / limit + (one - slow).scaled(1.0 / 3.0));
+    let square = |of: [T; 2]| {
+        let [first, second] = [0, 1].map(|k| limits[k] * of[k]);
+        first * first + second * second
+    };
+    let near = square(bent);
+    let near = near * near * (near * near);
+    let passing = (carried + square(slides) * near).plus(f64::MIN_POSITIVE).square_root();
+    [passing, (slow * near / near.plus(1.0)).scaled(4.0).plus(1.0)]
 }
 
 /// Derivatives of a number with respect to η, at fixed twists of the nodes, and η̇. Changes of the relative twist: δη̇ = -ad(A V_base) η.
@@ -517,11 +522,16 @@ impl Spring for Tyre {
         self.value(at).1.slip
     }
 
-    fn largest_load(&self) -> Option<f64> {
-        match &self.law {
-            Law::MagicFormula(law) => Some(law.largest_load()).filter(|load| load.is_finite()),
-            Law::Brush(_) => None,
-        }
+    fn tyre_limits(&self, at: &Kinematics) -> [[f64; 2]; 2] {
+        let largest = match &self.law {
+            Law::MagicFormula(law) => law.largest_load(),
+            Law::Brush(_) => f64::INFINITY,
+        };
+        let (motion, touch) = self.value(at);
+        let load = touch.normal[2];
+        let pose = Pose::new(&motion.rotation, &motion.position);
+        let bumps = self.ground.under(&pose, (motion.rotation * self.axis).into()).bumps;
+        [[load, largest], [if load > 0.0 { bumps } else { 0.0 }, 0.03 * self.radius]]
     }
 
     fn slip_gradients(&self, at: &Kinematics) -> [Gradient; 6] {

@@ -71,11 +71,11 @@ impl Law {
         }
     }
 
-    /// ε_s, slips at which the tread slides.
-    pub(super) fn sliding(&self) -> [f64; 2] {
+    /// ε_a: friction over slip stiffness, along and across.
+    pub(super) fn adhesion<T: Number>(&self, normal: T) -> [T; 2] {
         match self {
-            Self::Brush(law) => [0, 1].map(|k| 3.0 * law.friction[0] / law.slip[k]),
-            Self::MagicFormula(law) => law.sliding(),
+            Self::Brush(law) => [0, 1].map(|k| law.friction(normal).scaled(1.0 / law.slip[k])),
+            Self::MagicFormula(law) => law.adhesion(normal),
         }
     }
 
