@@ -75,12 +75,15 @@ diagnostics! {
             directions: usize,
             /// Description of the onset, may be empty.
             onset: String,
+            /// Description of the last equilibrium, if it is another one, otherwise empty.
+            last: String,
         } => "unstable-equilibrium" {
             time: *time,
             cause: ("the equilibrium at t = {time} is unstable in {directions} direction(s){onset}: the model would leave it \
-                    spontaneously (buckling, or a maximum of energy)"),
+                    spontaneously (buckling, or a maximum of energy){last}"),
             remedy: "disturb it to find the stable equilibrium, or constrain the free parts",
-            meaning: "An equilibrium, of statics or at the start, is unstable in the given number of directions.",
+            meaning: "An equilibrium, of statics or at the start, is unstable in the given number of directions. In statics the stability of the last \
+                equilibrium is reported, too: if it is unstable, the result is not a position in which the model stays.",
             advice: "A column beyond its buckling load or an inverted pendulum stays there only in a computation: disturb it, or \
                 constrain the free parts.",
         }
@@ -592,6 +595,24 @@ diagnostics! {
                 nearest side only: it has a wrong direction, and may change from side to side in every step.",
             advice: "Split the shape into several solids without hollows, such as planes, boxes or convex outlines (`shape` may be a list). Where the \
                 points of an outline approximate a curve, use `smooth = true`.",
+        }
+        /// Walls of a shell pass through each other.
+        ShellCrossesItself {
+            /// Time, or load parameter, at the end [s].
+            time: f64,
+            /// Name of the shell.
+            shell: String,
+            /// Where they cross, x, y and z [m].
+            position: String,
+        } => "shell-crosses-itself" {
+            time: *time,
+            subject: Subject::new("shell", shell),
+            cause: ("at the end, t = {time} s, walls of shell `{shell}` pass through each other at ({position}) m: nothing prevents this in the \
+                    model, but real walls touch"),
+            remedy: "reduce the loads, or add a contact between the walls",
+            meaning: "Elements of one shell that are apart at the start cross each other at the end of the run, for example the opposite walls of a \
+                tube under pressure beyond its buckling. A shell has no contact with itself.",
+            advice: "The result is valid up to the load at which the walls touch. Reduce the loads, or add contacts between parts of the shell.",
         }
         /// A tyre carries more than the loads for which it has data.
         TyreBeyondData {

@@ -4,8 +4,7 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{read_bytes, to_bytes};
 use crate::consistent::mobility::mobility;
-use crate::errors::Warning;
-use crate::errors::warn;
+use crate::errors::{Warning, report};
 use crate::linearized::{LinearModel, Verdict, is_stable_like, verdict};
 use crate::settings::Problem;
 use crate::system::State;
@@ -36,6 +35,32 @@ pub(crate) fn unstable_directions(Problem { system, settings }: Problem<'_>, sta
     Some(if directions == 0 { 0 } else { directions.min(mobility(system, state).freedoms) })
 }
 
+impl Stability {
+    /// The warning of the first unstable equilibrium, with the stability of the last one.
+    fn warning(&self, known: Option<&Warning>, now: f64, unstable: Option<usize>) -> Option<Warning> {
+        let written = crate::number::Written;
+        if let Some(Warning::Unstable { time, directions, onset, .. }) = known {
+            let state = match unstable {
+                Some(0) => "is stable".to_owned(),
+                Some(number) => format!("is unstable in {number} direction(s)"),
+                None => "has an unknown stability".to_owned(),
+            };
+            let last = format!("; the last one, at t = {}, {state}", written(now));
+            return Some(Warning::Unstable {
+                time: *time,
+                directions: *directions,
+                onset: onset.clone(),
+                last,
+            });
+        }
+        let directions = unstable.filter(|directions| *directions > 0)?;
+        let onset = self.stable_at;
+        let onset =
+            onset.map_or(String::new(), |last| format!(", the one at t = {} was stable", written(last)));
+        Some(Warning::Unstable { time: now, directions, onset, last: String::new() })
+    }
+}
+
 impl Monitor for Stability {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let time = step.end.kinematics.time;
@@ -56,16 +81,10 @@ impl Monitor for Stability {
         if self.changes.last().is_none_or(|(_, known)| *known != directions) {
             self.changes.push((time, directions));
         }
-        match directions {
-            Some(0) => self.stable_at = Some(time),
-            Some(directions) => {
-                let onset = self.stable_at;
-                let onset = onset.map_or(String::new(), |last| {
-                    format!(", the one at t = {} was stable", crate::number::Written(last))
-                });
-                warn(warnings, Warning::Unstable { time, directions, onset });
-            }
-            None => {}
+        let is_known = |warning: &Warning| matches!(warning, Warning::Unstable { .. });
+        report(warnings, is_known, |known| self.warning(known, time, directions));
+        if directions == Some(0) {
+            self.stable_at = Some(time);
         }
     }
 

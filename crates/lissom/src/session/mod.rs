@@ -7,6 +7,7 @@ mod joint_dynamics;
 mod observed;
 mod prepared;
 mod snapshot;
+mod walls;
 
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
@@ -48,6 +49,7 @@ pub(crate) use observed::Observed;
 pub use prepared::{PartError, Prepared, StartError};
 use snapshot::NoCheckpoints;
 pub use snapshot::{Checkpoints, SessionSnapshot};
+use walls::Walls;
 
 /// Times this close to the end of a planned step, relative to the step, are equal to its end.
 const WHOLE: f64 = 1e-9;
@@ -97,8 +99,9 @@ pub struct Session {
     /// Room for a state within a step.
     between: Box<State>,
     state_writers: Vec<Box<dyn StateWriter>>,
-    /// Warnings of the model, before the run.
+    /// Warnings of the model, before the run and at its end.
     warnings: Vec<Warning>,
+    walls: Arc<[Walls]>,
     /// Names of ids, if the model was built in code.
     ids: Option<Arc<IdNames>>,
     began: Instant,
@@ -162,6 +165,7 @@ impl Session {
             ..
         } = lowered;
         let origin = state.kinematics.time;
+        let walls = Walls::of(&names, &state.kinematics).into();
         let schedule = Schedule::new(plan, settings.step_size);
         let failed = |unit: &str| {
             let unit = unit.to_owned();
@@ -200,6 +204,7 @@ impl Session {
             signals: names.signals,
             schedule,
             warnings,
+            walls,
             ids: None,
             began,
         })
@@ -526,6 +531,15 @@ impl Session {
             Ok(ControlFlow::Break(())) => Stopped::Interrupted,
             Err(error) => Stopped::Failed(error),
         };
+        if matches!(stopped, Stopped::End) {
+            let at = &self.simulation.state().kinematics;
+            let crossed = self.walls.iter().find_map(|walls| {
+                let [x, y, z]: [f64; 3] = walls.crossing(at)?.into();
+                let position = format!("{x:.4}, {y:.4}, {z:.4}");
+                Some(Warning::ShellCrossesItself { time: at.time, shell: walls.shell.clone(), position })
+            });
+            self.warnings.extend(crossed);
+        }
         self.timings.pause();
         let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
         let simulation = &self.simulation;

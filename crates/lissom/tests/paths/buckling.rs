@@ -181,6 +181,49 @@ fn an_oval_ring_beyond_its_critical_pressure_is_unstable() {
     }
 }
 
+/// Half a metre of an oval tube under pressure from outside, of a factor of the critical one, held in the planes of its ends.
+fn tube(factor: f64, analysis: &str) -> String {
+    let held = [
+        ("a", "s.south", "z"),
+        ("b", "s.north", "z"),
+        ("c", "s@0,0.5", "y"),
+        ("d", "s@0.5,0.5", "y"),
+        ("e", "s@0.25,0.5", "x"),
+    ];
+    let held = held.map(|(name, tip, axis)| {
+        format!(
+            "[joints.{name}]\nkind = \"generic\"\nbase = \"ground\"\ntip = \"{tip}\"\nlocked = [\"{axis}\"]\n"
+        )
+    });
+    format!(
+        "lissom = 1\n[materials.m]\nE = 70e9\nnu = 0.3\ndensity = 2700\n[shells.s]\n\
+         surface = [\"(0.4 + 5e-4*cos(4*pi*u))*cos(2*pi*u)\", \"(0.4 + 5e-4*cos(4*pi*u))*sin(2*pi*u)\", \"0.05*v\"]\n\
+         divisions = [24, 2]\nthickness = 0.003\nmaterial = \"m\"\njoin = true\npressure_on_top = \"{}*t\"\n{}\
+         [analysis]\nkind = \"statics\"\n{analysis}",
+        factor * critical_pressure(),
+        held.concat()
+    )
+}
+
+#[test]
+fn walls_of_a_tube_that_pass_through_each_other_are_reported() {
+    for (factor, crosses) in [(0.5, false), (2.0, true)] {
+        let mut session = Model::from_text("tube.toml", &tube(factor, "")).session().unwrap();
+        session.run().unwrap();
+        let warned = session.warnings().any(|warning| warning.code() == "shell-crosses-itself");
+        assert_eq!(warned, crosses, "{factor}");
+    }
+}
+
+#[test]
+fn the_stability_of_the_last_equilibrium_is_reported() {
+    let mut session = Model::from_text("tube.toml", &tube(30.0, "steps = 10\n")).session().unwrap();
+    session.run().unwrap();
+    let warning = session.warnings().find(|warning| warning.code() == "unstable-equilibrium");
+    let text = warning.expect("a warning").to_string();
+    assert!(text.contains("the last one, at t = 1, is unstable in"), "{text}");
+}
+
 /// Constant loads of statics grow over its load steps: buckling takes their full size.
 #[test]
 fn loads_of_statics_have_their_full_size() {

@@ -1,0 +1,91 @@
+//! Whether walls of a shell pass through each other: its elements have no contact with each other.
+
+use lissom_core::elements::Element;
+use lissom_core::kinematics::{Kinematics, NodeId};
+use lissom_model::lower::Names;
+use lissom_motion::Vector3;
+
+/// Distance of the ends of an edge from the face that it pierces, over the size of the face: elements along a seam touch each other.
+const MIN_DEPTH: f64 = 0.01;
+
+/// Corners of an element.
+type Corners = [Vector3; 4];
+
+/// The elements of a shell.
+pub(super) struct Walls {
+    pub(super) shell: String,
+    elements: Vec<[NodeId; 4]>,
+    /// Corners at the start.
+    start: Vec<Corners>,
+}
+
+impl Walls {
+    /// The shells of a model, in its configuration at the start.
+    pub(super) fn of(names: &Names, start: &Kinematics) -> Vec<Self> {
+        let shells = names.meshes.shells.iter().map(|(name, shell)| {
+            let nodes = |element: &dyn Element| std::array::from_fn(|k| element.unknowns().nodes[k]);
+            let elements: Vec<[NodeId; 4]> = shell.elements.iter().map(|element| nodes(&**element)).collect();
+            Self { shell: name.clone(), start: corners(&elements, start), elements }
+        });
+        shells.collect()
+    }
+
+    /// A position at which elements without common nodes cross that do not cross at the start.
+    pub(super) fn crossing(&self, at: &Kinematics) -> Option<Vector3> {
+        let now = corners(&self.elements, at);
+        let bounds: Vec<[Vector3; 2]> = now.iter().map(|corners| bounds(corners)).collect();
+        let all = bounds.iter().copied().reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])])?;
+        let axis = (all[1] - all[0]).imax();
+        let mut order: Vec<usize> = (0..now.len()).collect();
+        order.sort_by(|&a, &b| bounds[a][0][axis].total_cmp(&bounds[b][0][axis]));
+        order.iter().enumerate().find_map(|(position, &one)| {
+            let candidates = order[position + 1..].iter();
+            candidates.take_while(|&&other| bounds[other][0][axis] <= bounds[one][1][axis]).find_map(
+                |&other| {
+                    let [a, b] = [&bounds[one], &bounds[other]];
+                    let is_near = (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k]);
+                    let shares_node =
+                        || self.elements[one].iter().any(|node| self.elements[other].contains(node));
+                    if !is_near || shares_node() || crossing(&self.start[one], &self.start[other]).is_some() {
+                        return None;
+                    }
+                    crossing(&now[one], &now[other])
+                },
+            )
+        })
+    }
+}
+
+fn corners(elements: &[[NodeId; 4]], at: &Kinematics) -> Vec<Corners> {
+    elements.iter().map(|nodes| nodes.map(|node| at.nodes[node].frame.position)).collect()
+}
+
+/// The smallest and the largest coordinates.
+fn bounds(corners: &[Vector3]) -> [Vector3; 2] {
+    corners.iter().fold([corners[0]; 2], |[low, high], corner| [low.inf(corner), high.sup(corner)])
+}
+
+/// A position at which an edge of one element pierces the other one.
+fn crossing(one: &Corners, other: &Corners) -> Option<Vector3> {
+    [(one, other), (other, one)].into_iter().find_map(|(edges, face)| {
+        (0..4).find_map(|k| {
+            let edge = [edges[k], edges[(k + 1) % 4]];
+            [[0, 1, 2], [0, 2, 3]].into_iter().find_map(|corners| pierced(edge, corners.map(|k| face[k])))
+        })
+    })
+}
+
+fn pierced([from, to]: [Vector3; 2], triangle: [Vector3; 3]) -> Option<Vector3> {
+    let [a, b, c] = triangle;
+    let normal = (b - a).cross(&(c - a));
+    let least = MIN_DEPTH * normal.norm().powf(1.5);
+    let [before, after] = [from, to].map(|end| normal.dot(&(end - a)));
+    if before * after >= 0.0 || before.abs().min(after.abs()) < least {
+        return None;
+    }
+    let place = from + (to - from) * (before / (before - after));
+    let is_inside = [[a, b], [b, c], [c, a]].iter().all(|[one, other]| {
+        normal.dot(&(other - one).cross(&(place - one))) >= -1e-9 * normal.norm_squared()
+    });
+    is_inside.then_some(place)
+}
