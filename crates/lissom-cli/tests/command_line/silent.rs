@@ -78,6 +78,15 @@ fn what_is_hardly_meant_is_reported_in_quiet_runs_too() {
 }
 
 #[test]
+fn expressions_without_a_number_are_reported() {
+    warned("output-never-finite", "never-finite", &["`depth` is not finite at any record"]);
+    // One that is a number at first is data.
+    let folder = Folder::new("output-never-finite");
+    let run = run("output-never-finite", &folder);
+    assert!(!run.errors.contains("`late`"), "{}", run.errors);
+}
+
+#[test]
 fn contradicting_constraints_are_refused_by_name() {
     refused("contradicting-drives", 3, &["`d1` (rotation)", "`d2` (rotation)", "contradict each other"]);
     refused("drive-beyond-reach", 3, &["`S`", "`A`", "contradict each other"]);

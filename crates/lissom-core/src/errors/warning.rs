@@ -33,6 +33,16 @@ diagnostics! {
             advice: "The step does not resolve the motion, or the scheme adds energy to a motion that it does not resolve: use a smaller step, \
                 `relative_tolerance`, or `scheme = \"radau-iia\"`.",
         }
+        /// An expression is not finite at any record.
+        NeverFinite {
+            /// Name of the output.
+            output: String,
+        } => "never-finite" {
+            subject: Subject::new("output", output),
+            cause: ("the output `{output}` is not finite at any record: an argument is outside of what its functions allow"),
+            remedy: "restrict the arguments, for example by `max(…, 0)` under a root, or correct the expression",
+            meaning: "An output of kind `expression` is NaN or infinite at every record: a root of a negative number, a division by zero.",
+        }
         /// A fluid without air is pulled.
         Cavitation {
             /// Time [s].

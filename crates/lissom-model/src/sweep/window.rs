@@ -223,16 +223,19 @@ pub struct WindowedHistory {
     window: TimeWindow,
     inside: Accumulator,
     stored: VecDeque<(f64, f64)>,
+    /// Whether a value is finite, also outside of the window.
+    has_finite: bool,
 }
 
 impl WindowedHistory {
     /// An empty history; its cycles are counted if it has `fatigue`.
     pub fn new(window: TimeWindow, fatigue: Option<Fatigue>) -> Self {
-        Self { window, inside: Accumulator::with_fatigue(fatigue), stored: VecDeque::new() }
+        Self { window, inside: Accumulator::with_fatigue(fatigue), ..Self::default() }
     }
 
     /// Adds the value at `time` [s].
     pub fn add(&mut self, time: f64, value: f64) {
+        self.has_finite |= value.is_finite();
         let TimeWindow { after, before, last, tolerance } = &self.window;
         let is_out = matches!(after, Some(Limit::Time(after)) if time < after - tolerance)
             || matches!(before, Some(Limit::Time(before)) if time > before + tolerance);
@@ -251,6 +254,11 @@ impl WindowedHistory {
                 self.stored.pop_front();
             }
         }
+    }
+
+    /// Whether a value that was added is finite.
+    pub fn has_finite(&self) -> bool {
+        self.has_finite
     }
 
     /// Data of the records in the window, for a run in which `events` happened [s].

@@ -541,6 +541,7 @@ impl Session {
             self.warnings.extend(crossed);
         }
         self.timings.pause();
+        self.check_expressions();
         let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
         let simulation = &self.simulation;
         let states = self.state_writers.iter_mut().try_for_each(|writer| writer.finish(simulation));
@@ -620,6 +621,22 @@ impl Session {
             self.write_row(writers, Due::End)?;
         }
         Ok(ControlFlow::Continue(()))
+    }
+
+    /// Warns of expressions that are not finite at any record.
+    fn check_expressions(&mut self) {
+        let mut histories = self.tally.histories.iter();
+        for channel in self.observed.channels() {
+            let is_finite = histories
+                .by_ref()
+                .take(channel.components.len())
+                .fold(false, |any, own| any | own.has_finite());
+            let warning = Warning::NeverFinite { output: channel.name.clone() };
+            let is_doubtful = channel.kind == OutputKind::Expression && self.tally.records > 0 && !is_finite;
+            if is_doubtful && !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
     }
 
     /// Passes on a snapshot, after all earlier rows have been written.
