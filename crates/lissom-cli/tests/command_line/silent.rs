@@ -87,6 +87,11 @@ fn expressions_without_a_number_are_reported() {
 }
 
 #[test]
+fn positions_without_a_square_are_refused() {
+    refused("far-position", 2, &["`position` of body `a` has the number 1e300", "in m"]);
+}
+
+#[test]
 fn contradicting_constraints_are_refused_by_name() {
     refused("contradicting-drives", 3, &["`d1` (rotation)", "`d2` (rotation)", "contradict each other"]);
     refused("drive-beyond-reach", 3, &["`S`", "`A`", "contradict each other"]);

@@ -21,6 +21,9 @@ pub(crate) fn type_of(node: &Node) -> &'static str {
     }
 }
 
+/// Largest component of a vector: products of three of them are finite.
+const MAX_COMPONENT: f64 = 1e100;
+
 impl Context<'_> {
     /// Reports that `what` must be `wanted` but is of another type.
     pub(crate) fn wrong_type<T>(&self, node: &Node, what: &str, wanted: &str) -> Option<T> {
@@ -119,7 +122,12 @@ impl Context<'_> {
 
     /// Three numbers.
     pub(crate) fn vector(&self, node: &Node, what: &str) -> Option<Vector3> {
-        self.numbers::<3>(node, what).map(Vector3::from)
+        let vector = Vector3::from(self.numbers::<3>(node, what)?);
+        if vector.amax() <= MAX_COMPONENT {
+            return Some(vector);
+        }
+        let message = format!("{what} has the number {:e}", vector.amax());
+        self.fail(node.span, message, "write lengths in m; no number of a vector may exceed 1e100")
     }
 
     /// Three numbers that are not all zero, or the letter of an axis, as they are written.
