@@ -351,9 +351,13 @@ impl<T> Declared<T> {
 }
 
 /// The initial relative rotation of a joint.
-pub(crate) const ANGLE_AT_START: Parameter =
-    optional("angle", ParameterType::Number, "rad", "Value of the relative rotation at the start.")
-        .or_number(0.0);
+pub(crate) const ANGLE_AT_START: Parameter = optional(
+    "angle",
+    ParameterType::Number,
+    "rad",
+    "Value of the relative rotation in the given positions; moves no part, except with `[assembly]`.",
+)
+.or_number(0.0);
 
 /// The initial rate of a joint's relative rotation.
 pub(crate) const RATE_AT_START: Parameter = optional(
@@ -364,9 +368,13 @@ pub(crate) const RATE_AT_START: Parameter = optional(
 );
 
 /// The initial relative displacement of a joint.
-pub(crate) const DISPLACEMENT_AT_START: Parameter =
-    optional("displacement", ParameterType::Number, "m", "Value of the relative displacement at the start.")
-        .or_number(0.0);
+pub(crate) const DISPLACEMENT_AT_START: Parameter = optional(
+    "displacement",
+    ParameterType::Number,
+    "m",
+    "Value of the relative displacement in the given positions; moves no part, except with `[assembly]`.",
+)
+.or_number(0.0);
 
 /// The initial velocity of a joint's relative displacement.
 pub(crate) const VELOCITY_AT_START: Parameter = optional(

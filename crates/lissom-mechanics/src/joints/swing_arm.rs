@@ -18,7 +18,13 @@ pub const KIND: JointKind = JointKind {
     name: "swing_arm",
     summary: "A massless link with a revolute joint at the base and a spherical joint at the tip.",
     sample: "axis = [0.0, 0.0, 1.0]",
-    parameters: &[optional("angle", Number, "rad", "Value of the link's angle at the start.").or_number(0.0)],
+    parameters: &[optional(
+        "angle",
+        Number,
+        "rad",
+        "Value of the link's angle in the given positions; moves no part, except with `[assembly]`.",
+    )
+    .or_number(0.0)],
     ports: Ports::ARM,
     build: Build::Relative(|parameters, geometry| {
         let angle = parameters.number("angle")?;

@@ -102,7 +102,7 @@ pub(crate) const RELATIVE_MOTION: Declaration = Declaration {
 /// Registry entry.
 pub(crate) const DISTANCE: Declaration = Declaration {
     word: "distance",
-    summary: "Distance of a node, or of a point fixed to it, from the origin or from another node, and its rate.",
+    summary: "Distance of a node, or of a point fixed to it, from another node, and its rate; without `relative_to`, or with the ground, from the origin: no distance from a surface.",
     subject: Subject::Node,
     features: &[Feature::Observer, Feature::Point, Feature::Velocities],
     components: &[("distance", "m"), ("rate", "m/s")],

@@ -116,9 +116,9 @@ class Cylindrical(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the relative rotation in the given positions; moves no part, except with `[assembly]`; default 0 [rad]; a number, or nothing.
         rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
-        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        displacement: Value of the relative displacement in the given positions; moves no part, except with `[assembly]`; default 0 [m]; a number, or nothing.
         velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -350,7 +350,7 @@ class ParallelAxes(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the relative rotation in the given positions; moves no part, except with `[assembly]`; default 0 [rad]; a number, or nothing.
         rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -420,7 +420,7 @@ class Planar(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the relative rotation in the given positions; moves no part, except with `[assembly]`; default 0 [rad]; a number, or nothing.
         rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -486,7 +486,7 @@ class PointOnLine(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        displacement: Value of the relative displacement in the given positions; moves no part, except with `[assembly]`; default 0 [m]; a number, or nothing.
         velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -608,7 +608,7 @@ class Prismatic(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        displacement: Value of the relative displacement in the given positions; moves no part, except with `[assembly]`; default 0 [m]; a number, or nothing.
         velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -643,7 +643,7 @@ class Revolute(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the relative rotation in the given positions; moves no part, except with `[assembly]`; default 0 [rad]; a number, or nothing.
         rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -747,7 +747,7 @@ class Screw(Joint):
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
         lead: Displacement along `axis` per revolution; negative for a left-handed thread [m]; a number.
-        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the relative rotation in the given positions; moves no part, except with `[assembly]`; default 0 [rad]; a number, or nothing.
         rate: Rate of the relative rotation at the start, which parts without a given velocity follow [rad/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
@@ -837,7 +837,7 @@ class SwingArm(Joint):
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; a direction.
-        angle: Value of the link's angle at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the link's angle in the given positions; moves no part, except with `[assembly]`; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -870,7 +870,7 @@ class TelescopicRod(Joint):
         tip: second node; a node.
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
-        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        displacement: Value of the relative displacement in the given positions; moves no part, except with `[assembly]`; default 0 [m]; a number, or nothing.
         velocity: Velocity of the relative displacement at the start, which parts without a given velocity follow [m/s]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.

@@ -154,7 +154,7 @@ class Velocity(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Distance(Output):
-    """Distance of a node, or of a point fixed to it, from the origin or from another node, and its rate.
+    """Distance of a node, or of a point fixed to it, from another node, and its rate; without `relative_to`, or with the ground, from the origin: no distance from a surface.
 
     Args:
         of: the node, such as "beam@0.5"; a node.

@@ -205,7 +205,7 @@ entries! {
         * base: Node = "base", "first node: \"ground\", \"body\", \"beam.end\" …";
         * tip: Node = "tip", "second node";
         * axis: [f64; 3] = "axis", "direction at the start, global axes";
-        angle: f64 = "angle", "Value of the link's angle at the start; default 0 \\[rad\\].";
+        angle: f64 = "angle", "Value of the link's angle in the given positions; moves no part, except with `[assembly]`; default 0 \\[rad\\].";
     }
 
     /// A massless rod of variable length between two points, otherwise as `distance`; the displacement is a coordinate.
@@ -289,13 +289,13 @@ keys! {
 
 keys! {
     [Cylindrical, ParallelAxes, Planar, Revolute, Screw]
-        angle: f64 = "angle", "Value of the relative rotation at the start; default 0 \\[rad\\].";
+        angle: f64 = "angle", "Value of the relative rotation in the given positions; moves no part, except with `[assembly]`; default 0 \\[rad\\].";
         rate: f64 = "rate", "Rate of the relative rotation at the start, which parts without a given velocity follow \\[rad/s\\].";
 }
 
 keys! {
     [Cylindrical, PointOnLine, Prismatic, TelescopicRod]
-        displacement: f64 = "displacement", "Value of the relative displacement at the start; default 0 \\[m\\].";
+        displacement: f64 = "displacement", "Value of the relative displacement in the given positions; moves no part, except with `[assembly]`; default 0 \\[m\\].";
         velocity: f64 = "velocity", "Velocity of the relative displacement at the start, which parts without a given velocity follow \\[m/s\\].";
 }
 

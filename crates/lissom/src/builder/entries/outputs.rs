@@ -44,7 +44,7 @@ entries! {
         * of: Node = "of", "the node, such as \"beam@0.5\"";
     }
 
-    /// Distance of a node, or of a point fixed to it, from the origin or from another node, and its rate.
+    /// Distance of a node, or of a point fixed to it, from another node, and its rate; without `relative_to`, or with the ground, from the origin: no distance from a surface.
     Distance => OutputId, kind: "distance" {
         * of: Node = "of", "the node, such as \"beam@0.5\"";
     }
