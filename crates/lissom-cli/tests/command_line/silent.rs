@@ -116,6 +116,23 @@ fn positions_without_a_square_are_refused() {
 }
 
 #[test]
+fn lists_of_heights_have_a_limit() {
+    let folder = Folder::new("road-of-lists");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/command_line/failures/road-not-finite.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    for road in [format!("[{}]", "0, ".repeat(17)), "[0, [0]]".to_owned()] {
+        folder.write("m.toml", &text.replace("\"sqrt(x - 5)\"", &road));
+        let run = lissom(&["run", "m.toml", "--quiet"], folder.path());
+        assert_eq!(run.code, 2, "{road}: {}", run.errors);
+        assert!(
+            run.errors.contains("is a list of more than 16 heights, or of lists"),
+            "{road}: {}",
+            run.errors
+        );
+    }
+}
+
+#[test]
 fn contradicting_constraints_are_refused_by_name() {
     refused("contradicting-drives", 3, &["`d1` (rotation)", "`d2` (rotation)", "contradict each other"]);
     refused("drive-beyond-reach", 3, &["`S`", "`A`", "contradict each other"]);
