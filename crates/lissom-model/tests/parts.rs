@@ -323,7 +323,7 @@ fn mistakes_with_parts_are_reported() {
         ("[parts.leg]\nlike = \"lag\"\n".to_owned(), "is like `lag`, which is no other part"),
         ("[parts.a]\nlike = \"b\"\n[parts.b]\nlike = \"a\"\n".to_owned(), "is like itself"),
         (
-            (0..40).map(|k| format!("[parts.p{k}]\nlike = \"p{}\"\n", k + 1)).collect::<String>() + "[parts.p40]\ninclude = \"arm.toml\"\n",
+            (0..40).map(|k| format!("[parts.p{k}]\nlike = \"p{}\"\n", k + 1)).collect::<Vec<_>>().concat() + "[parts.p40]\ninclude = \"arm.toml\"\n",
             "part `p0` is like another one through 32 others",
         ),
         ("[parts.a]\ninclude = \"self.toml\"\n".to_owned(), "`self.toml` includes itself: self.toml includes self.toml"),

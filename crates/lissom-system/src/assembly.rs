@@ -11,7 +11,7 @@ use std::sync::Arc;
 use lissom_motion::WIDTH;
 
 use super::{JointLanes, System};
-use lissom_mechanics::elements::Deformable;
+use lissom_mechanics::elements::{Deformable, Load};
 use lissom_mechanics::evaluation::batch::{AnyBatch, scatter, scatter_lane};
 use lissom_mechanics::evaluation::linearization::{Linearization, Scratch};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
@@ -187,8 +187,7 @@ impl System {
 
     /// Elements whose forces may depend on time.
     fn batches_over_time(&self) -> impl Iterator<Item = &Arc<dyn AnyBatch>> {
-        let is_active =
-            |batch: &&Arc<dyn AnyBatch>| batch.elements_with(|own| own.load).any(|load| load.is_active());
+        let is_active = |batch: &&Arc<dyn AnyBatch>| batch.elements_with(|own| own.load).any(Load::is_active);
         self.batches.iter().filter(is_active)
     }
 

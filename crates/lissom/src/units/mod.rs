@@ -272,8 +272,8 @@ impl ReadUnit {
 
     /// Writes the files that the unit needs to a new temporary folder, which only this user can read.
     fn unpack(&self) -> Result<UnpackedFolder, String> {
-        let files = Unarchived::of(&self.archive)?;
         static LEFT: Once = Once::new();
+        let files = Unarchived::of(&self.archive)?;
         LEFT.call_once(|| remove_left_folders(&std::env::temp_dir()));
         let folder = new_folder().map_err(|error| error.to_string())?;
         let is_needed = |name: &&str| {
