@@ -99,6 +99,13 @@ pub enum AnalysisWarning {
         /// The largest rotation [rad].
         angle: f64,
     },
+    /// The stiffness up to a load factor does not change in proportion to the loads.
+    NotProportional {
+        /// The lowest such load factor.
+        factor: f64,
+        /// Its relative error.
+        error: f64,
+    },
     /// It is unknown whether a load factor was missed.
     LoadFactorUnknown,
     /// No load factor was found, and it is unknown whether there is one.
@@ -257,6 +264,13 @@ catalogued! {
                     stiffness does not change in proportion to the loads",
             remedy: "locate the critical points by an analysis of kind `path`",
             meaning: "The linear estimate of buckling loads assumes small rotations under the loads.",
+        }
+        NotProportional { factor => factor, error => error } => "load-factor-extrapolated" {
+            cause: "the load factor {factor} has a relative error of about {error:.1e}, and higher ones may have larger errors: the model bends \
+                    under the loads before it buckles, and its stiffness does not change in proportion to the loads",
+            remedy: "locate higher critical points by an analysis of kind `path`",
+            meaning: "The linear estimate of buckling loads assumes that the stiffness changes in proportion to the loads. The lower load factors \
+                      are accurate to 2 %.",
         }
         LoadFactorUnknown {} => "load-factor-unknown" {
             cause: "it is unknown whether a lower load factor was missed",

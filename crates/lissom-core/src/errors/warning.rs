@@ -619,10 +619,10 @@ diagnostics! {
             subject: Subject::new("shell", shell),
             cause: ("at the end, t = {time} s, walls of shell `{shell}` pass through each other at ({position}) m: nothing prevents this in the \
                     model, but real walls touch"),
-            remedy: "reduce the loads, or add a contact between the walls",
+            remedy: "reduce the loads, or add a contact of the shell with itself",
             meaning: "Elements of one shell that are apart at the start cross each other at the end of the run, for example the opposite walls of a \
-                tube under pressure beyond its buckling. A shell has no contact with itself.",
-            advice: "The result is valid up to the load at which the walls touch. Reduce the loads, or add contacts between parts of the shell.",
+                tube under pressure beyond its buckling. The shell has no contact with itself.",
+            advice: "The result is valid up to the load at which the walls touch. Reduce the loads, or add a contact of the shell with itself.",
         }
         /// A tyre carries more than the loads for which it has data.
         TyreBeyondData {

@@ -153,6 +153,36 @@ impl LinearModel<'_> {
         Ok(again.ok().filter(|again| again.completeness == Completeness::Counted).unwrap_or(found))
     }
 
+    /// Relative error of the load factor Λ of a mode, to first order, because the stiffness does not change in proportion to the loads. `models`
+    /// are two equilibria under the load factors `at`, each without and with the loads. Of second order are the stresses of a deflection, while
+    /// the coupling of stretching and bending grows with the deflection itself.
+    ///
+    /// ```text
+    /// K(Λ) = K₀ + Λ A + Λ² C,    (K_q - K₀)/q - (K_p - K₀)/p = (q - p) C,    K(Λ) - K₀ - Λ (K₁ - K₀) = Λ (Λ - 1) C
+    /// ```
+    pub fn load_factor_error(
+        &self,
+        models: [[&LinearModel<'_>; 2]; 2],
+        at: [f64; 2],
+        mode: &BucklingMode,
+    ) -> f64 {
+        let size = self.system.layout().size();
+        let mut shape = mode.shape.clone();
+        shape.resize(size, 0.0);
+        let mut forces = vec![0.0; size];
+        let [first, second] = [0, 1].map(|k| {
+            let [without, with] = models[k].map(|model| &model.parts.stiffness);
+            let change = |((start, without), with): ((&f64, &f64), &f64)| {
+                (without - start + at[k] * (with - without)) / at[k]
+            };
+            let change: Vec<f64> = self.parts.stiffness.iter().zip(without).zip(with).map(change).collect();
+            self.pattern().multiply(&change, &shape, &mut forces);
+            product(&forces, &shape)
+        });
+        // xᵀK₀x is 2 J.
+        0.5 * mode.load_factor * (mode.load_factor - 1.0) * (second - first) / (at[1] - at[0])
+    }
+
     /// The stiffness at a load factor, with the other coefficients of the model without loads.
     fn at_load_factor(&self, change: &[f64], factor: f64) -> Linearization {
         let mut parts = self.parts.clone();

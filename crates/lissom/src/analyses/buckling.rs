@@ -3,7 +3,9 @@
 
 use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
+use lissom_core::interrupt;
 use std::fmt::Write;
+use std::sync::Arc;
 
 use crate::start::{Lowered, lower};
 use lissom_core::linearized::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
@@ -24,6 +26,10 @@ const FIRST: f64 = 0.25;
 const MAX_STEPS: usize = 500;
 /// Rotations under the loads above which the stiffness is not assumed to change in proportion to them [rad].
 const LARGE_TURN: f64 = 0.05;
+/// Relative errors of load factors, because the stiffness does not change in proportion to the loads, above which a warning is issued, and above
+/// which the lowest one is not reported.
+const NOTEWORTHY_ERROR: f64 = 0.02;
+const MAX_ERROR: f64 = 0.1;
 
 /// Estimate the load factors at which a model buckles, from its stiffness with and without the loads.
 ///
@@ -77,6 +83,8 @@ pub enum BucklingRunError {
     Buckling(#[from] BucklingError),
     /// Some modes were not found.
     Missing(usize),
+    /// The stiffness does not change in proportion to the loads: the lowest load factor, and its relative error.
+    NotProportional(f64, f64),
 }
 
 impl AnalysisError for BucklingRunError {
@@ -125,7 +133,11 @@ pub fn buckling(model: &Model, count: Option<usize>) -> Result<BucklingReport, B
         limits: settings.limits,
         solver: settings.solver,
     };
-    let mut path = EquilibriumPath::new(unloaded, system, state, path_settings)?;
+    let path_of = |first: f64, end: f64| {
+        let settings = PathSettings { first, end, ..path_settings };
+        EquilibriumPath::new(Arc::clone(&unloaded), Arc::clone(&system), state.clone(), settings)
+    };
+    let mut path = path_of(FIRST, 1.0)?;
     let start = path.state().clone();
     while !path.is_finished() {
         let step = path.advance()?;
@@ -141,6 +153,7 @@ pub fn buckling(model: &Model, count: Option<usize>) -> Result<BucklingReport, B
     if turn > LARGE_TURN {
         warnings.push(AnalysisWarning::LargeRotation { angle: turn });
     }
+    check_proportion(&buckling, ([&zero, &one], path_settings), path_of, &mut warnings)?;
     match buckling.completeness {
         Completeness::Missing(missing) => return Err(BucklingRunError::Missing(missing)),
         Completeness::Counted => {}
@@ -165,6 +178,62 @@ pub fn buckling(model: &Model, count: Option<usize>) -> Result<BucklingReport, B
         turn,
         warnings,
     })
+}
+
+/// Checks whether the stiffness changes in proportion to the loads up to half of the lowest load factor: round-off hides the change under loads that
+/// are small beside the critical ones.
+fn check_proportion(
+    buckling: &Buckling,
+    ([zero, one], settings): ([&LinearModel<'_>; 2], PathSettings),
+    path_of: impl Fn(f64, f64) -> Result<EquilibriumPath, PathError>,
+    warnings: &mut Vec<AnalysisWarning>,
+) -> Result<(), BucklingRunError> {
+    let Some(lowest) = buckling.modes.first() else { return Ok(()) };
+    let estimate = lowest.load_factor;
+    // Stiffnesses of loads that follow the motion, such as pressure, are those of the whole load: the critical point itself is looked for.
+    let follows = one.system().has_loads_of_motion();
+    let end = if follows { (1.0 + MAX_ERROR) * estimate } else { (0.5 * estimate).max(1.0) };
+    let mut path = path_of(FIRST * end, end)?;
+    let mut halfway = (path.state().clone(), 0.0);
+    while !path.is_finished() {
+        // An equilibrium that ends or becomes unstable far below the estimate refutes it.
+        let critical = path.advance().map(|step| step.critical.first().map(|point| point.load_factor));
+        if !matches!(critical, Ok(None)) {
+            interrupt::check().map_err(LinearError::from)?;
+            let error = critical.ok().flatten().map_or(0.5, |factor| (factor / estimate - 1.0).abs());
+            if error > MAX_ERROR {
+                return Err(BucklingRunError::NotProportional(estimate, error));
+            }
+            if error > NOTEWORTHY_ERROR {
+                warnings.push(AnalysisWarning::NotProportional { factor: estimate, error });
+            }
+            return Ok(());
+        }
+        let distance = |factor: f64| (factor - 0.5 * end).abs();
+        if distance(path.load_factor()) < distance(halfway.1) {
+            halfway = (path.state().clone(), path.load_factor());
+        }
+    }
+    if follows {
+        return Err(BucklingRunError::NotProportional(estimate, 1.0));
+    }
+    let [halfway_models, end_models] = [&halfway.0, path.state()].map(|state| {
+        [path.unloaded(), path.system()].map(|system| LinearModel::of(system, state, settings.solver))
+    });
+    let [[a, b], [c, d]] = [halfway_models, end_models];
+    let (models, at) = ([[&a?, &b?], [&c?, &d?]], [halfway.1, path.load_factor()]);
+    let errors = buckling.modes.iter();
+    let mut errors = errors.map(|mode| (mode.load_factor, zero.load_factor_error(models, at, mode).abs()));
+    match errors.find(|(_, error)| *error > NOTEWORTHY_ERROR) {
+        Some((factor, error)) if error > MAX_ERROR && factor <= estimate => {
+            Err(BucklingRunError::NotProportional(factor, error))
+        }
+        Some((factor, error)) => {
+            warnings.push(AnalysisWarning::NotProportional { factor, error });
+            Ok(())
+        }
+        None => Ok(()),
+    }
 }
 
 impl BucklingReport {
@@ -227,6 +296,14 @@ catalogued! {
             cause: "{missed} of the load factors below the last one were missed, according to the count of negative pivots",
             remedy: "request another `count`",
             meaning: "The search for load factors found fewer of them than the factorisation counts in the interval.",
+        }
+        NotProportional { 0 => factor, 1 => error } => "buckling-not-proportional" {
+            cause: "the stiffness does not change in proportion to the loads: the linear estimate {factor} of the lowest load factor has a relative \
+                    error of about {error:.1e}, because the model bends under the loads before it buckles",
+            remedy: "follow the equilibrium path by an analysis of kind `path`, or specify loads close to the critical ones",
+            meaning: "Deflections before buckling change the stiffness with the square of the loads, but linear buckling extrapolates it in \
+                      proportion to the loads. Plates under pressure and beams under transverse loads may have such a load factor although they \
+                      never buckle.",
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),

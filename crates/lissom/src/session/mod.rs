@@ -165,7 +165,7 @@ impl Session {
             ..
         } = lowered;
         let origin = state.kinematics.time;
-        let walls = Walls::of(&names, &state.kinematics).into();
+        let walls = Walls::of(&names, &system, &state.kinematics).into();
         let schedule = Schedule::new(plan, settings.step_size);
         let failed = |unit: &str| {
             let unit = unit.to_owned();

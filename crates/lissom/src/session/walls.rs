@@ -1,7 +1,10 @@
-//! Whether walls of a shell pass through each other: its elements have no contact with each other.
+//! Whether walls of a shell without a contact with itself pass through each other.
+
+use std::collections::BTreeSet;
 
 use lissom_core::elements::Element;
 use lissom_core::kinematics::{Kinematics, NodeId};
+use lissom_core::system::System;
 use lissom_model::lower::Names;
 use lissom_motion::Vector3;
 
@@ -20,12 +23,22 @@ pub(super) struct Walls {
 }
 
 impl Walls {
-    /// The shells of a model, in its configuration at the start.
-    pub(super) fn of(names: &Names, start: &Kinematics) -> Vec<Self> {
-        let shells = names.meshes.shells.iter().map(|(name, shell)| {
+    /// The shells of a model that have no contact with themselves, in its configuration at the start.
+    pub(super) fn of(names: &Names, system: &System, start: &Kinematics) -> Vec<Self> {
+        // A node and the element that it touches.
+        let touches_itself = |nodes: &BTreeSet<NodeId>| {
+            system.elements_with(|element| element.spring).any(|spring| {
+                let touching = spring.unknowns().nodes;
+                touching.len() > 4 && touching.iter().all(|node| nodes.contains(node))
+            })
+        };
+        let shells = names.meshes.shells.iter().filter_map(|(name, shell)| {
             let nodes = |element: &dyn Element| std::array::from_fn(|k| element.unknowns().nodes[k]);
             let elements: Vec<[NodeId; 4]> = shell.elements.iter().map(|element| nodes(&**element)).collect();
-            Self { shell: name.clone(), start: corners(&elements, start), elements }
+            if touches_itself(&elements.iter().flatten().copied().collect()) {
+                return None;
+            }
+            Some(Self { shell: name.clone(), start: corners(&elements, start), elements })
         });
         shells.collect()
     }

@@ -224,6 +224,28 @@ fn the_stability_of_the_last_equilibrium_is_reported() {
     assert!(text.contains("the last one, at t = 1, is unstable in"), "{text}");
 }
 
+/// A beam of 1 m between clamps, pushed by a thermal strain, under a load across it: it stiffens. Whatever the load, there is no load factor.
+#[test]
+fn a_load_factor_of_what_bends_before_is_refused() {
+    let beam = |load: f64| {
+        format!(
+            "lissom = 1\n[materials.m]\nE = 70e9\nnu = 0.3\ndensity = 2700\nexpansion = 2.3e-5\n[sections.s]\nshape = \"rectangle\"\nwidth = 0.02\nheight = 0.01\n\
+             material = \"m\"\n[beams.b]\nsection = \"s\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nelements = 6\ntemperature = 8\n\
+             [joints.c]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"b.start\"\n[joints.d]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"b.end\"\n\
+             [loads.q]\nkind = \"force\"\non = \"b@0.5\"\nvector = [0, 0, {load}]\n[analysis]\nkind = \"buckling\"\n"
+        )
+    };
+    for load in [0.01, 1.0, 40.0] {
+        let error = find(&beam(load), 1);
+        assert!(matches!(error, Err(BucklingRunError::NotProportional(..))), "{load}: {error:?}");
+    }
+    // However small the load, a straight column has its factor.
+    for load in [1e-4, 1.0, 100.0] {
+        let report = find(&column(&format!("vector = [-{load}, 0, 0]")), 1).unwrap();
+        assert!((report.buckling.modes[0].load_factor * load / (PI.powi(2) * 25.0) - 1.0).abs() < 1e-3);
+    }
+}
+
 /// Constant loads of statics grow over its load steps: buckling takes their full size.
 #[test]
 fn loads_of_statics_have_their_full_size() {
