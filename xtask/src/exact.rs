@@ -161,7 +161,7 @@ fn rest(draw: &mut Draw) -> Case {
     let slide = |name: &str, speed: f64| {
         format!(
             "[bodies.{name}]\nmass = {mass}\ninertia = [1, 1, 1]\n[joints.{name}]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"{name}\"\naxis = [1, 0, 0]\n\
-             rate = {speed}\n[springs.{name}]\nkind = \"axial\"\njoint = \"{name}\"\nforce = \"{stiffness}*elongation\"\n"
+             velocity = {speed}\n[springs.{name}]\nkind = \"axial\"\njoint = \"{name}\"\nforce = \"{stiffness}*elongation\"\n"
         )
     };
     let text = format!(

@@ -223,8 +223,14 @@ pub(crate) mod tests {
             "interrupted",
             "normal-forces",
         ];
-        let without_time =
-            ["velocity-replaced", "starts-with-jolt", "reactions-not-unique", "model", "time-not-finite"];
+        let without_time = [
+            "velocity-replaced",
+            "starts-with-jolt",
+            "reactions-not-unique",
+            "model",
+            "time-not-finite",
+            "never-finite",
+        ];
         let without_remedy = ["interrupted"];
         let codes_of_starts: Vec<&str> =
             InitialError::ENTRIES.iter().chain(InputError::ENTRIES).map(|entry| entry.code).collect();

@@ -99,7 +99,7 @@ pub enum AnalysisWarning {
         /// The largest rotation [rad].
         angle: f64,
     },
-    /// The stiffness up to a load factor does not change in proportion to the loads.
+    /// Stiffness that does not change in proportion to the loads, up to a load factor.
     NotProportional {
         /// The lowest such load factor.
         factor: f64,

@@ -87,30 +87,6 @@ fn expressions_without_a_number_are_reported() {
 }
 
 #[test]
-fn values_of_coordinates_without_effect_are_reported() {
-    let folder = Folder::new("angle-without-effect");
-    let of = |more: &str| {
-        let text = std::fs::read_to_string(model("angle-without-effect")).unwrap() + more;
-        folder.write("m.toml", &text);
-        lissom(&["run", "m.toml", "--out", "out", "--no-plots", "--quiet"], folder.path())
-    };
-    let run = of("");
-    assert_eq!(run.code, 0, "{}", run.errors);
-    for words in ["joint `pin` rests at the start: `angle = 0.5` moves no part", "`[assembly]`"] {
-        assert!(run.errors.contains(words), "{words}: {}", run.errors);
-    }
-    assert!((last_row(&folder)[1] - 0.5).abs() < 1e-12);
-    // It has an effect as the zero of a spring, in a signal, and as the target of an assembly.
-    let spring = "[springs.s]\nkind = \"torsional\"\njoint = \"pin\"\nstiffness = 1\n";
-    let signal = "[loads.l]\nkind = \"joint_torque\"\njoint = \"pin\"\ntorque = \"lag\"\n[signals]\nlag = \"-pin.angle\"\n";
-    for more in [spring, signal, "[assembly]\n"] {
-        let run = of(more);
-        assert_eq!((run.code, &*run.errors), (0, ""), "{more}");
-        assert!((last_row(&folder)[1] - 0.5).abs() > 1e-3, "{more}");
-    }
-}
-
-#[test]
 fn positions_without_a_square_are_refused() {
     refused("far-position", 2, &["`position` of body `a` has the number 1e300", "in m"]);
 }

@@ -55,13 +55,6 @@ pub struct Names {
 }
 
 impl Names {
-    /// Whether an expression of the motion names this component of an output, or this coordinate.
-    pub fn is_read(&self, component: &str) -> bool {
-        [false, true]
-            .iter()
-            .any(|sampled| self.references.measured.contains_key(&(component.to_owned(), *sampled)))
-    }
-
     /// The node a reference means.
     pub(super) fn node(&self, reference: &Located<NodeReference>) -> Result<NodeId, Problem> {
         let unknown = |name: &str| {

@@ -1,7 +1,6 @@
 //! Models at their start: positions of an assembly or of a steady rotation, drives, and redundant constraints.
 
 mod assembly;
-mod coordinate_zeros;
 mod drives;
 mod immobile;
 mod redundancy;
@@ -148,14 +147,12 @@ fn lower_of(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     warnings.extend(immobile::immobile(document, &system, &state));
-    let system = Arc::new(system);
-    warnings.extend(coordinate_zeros::at_rest(document, &names, (&system, &state, &settings)));
     let graph = system.signals();
     let exchanged = graph.exchanged.iter().map(|unit| unit.slot.name());
     let units = units::in_order(&read, graph.units.iter().map(|unit| unit.name.as_str()).chain(exchanged));
     let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
     Ok(Lowered {
-        system,
+        system: Arc::new(system),
         state,
         settings,
         plan,
