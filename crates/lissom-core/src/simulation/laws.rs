@@ -514,7 +514,7 @@ impl Laws {
         if !self.sample(system, (from, to)) {
             return None;
         }
-        let Self { magnitudes, between, middle, cubics, leaders, noise, length, .. } = self;
+        let Self { magnitudes, between, arguments, middle, cubics, leaders, noise, length } = self;
         let leader_of = |index: usize| leaders.get(index).copied().unwrap_or(index);
         let time = [from.kinematics.time, to.kinematics.time - from.kinematics.time];
         let (mut next, mut index, mut first) = (0, 0, None);
@@ -562,7 +562,7 @@ impl Laws {
             }
             let Some(mut share) = found else { return };
             if noise.is_empty() {
-                add_noise(system, [from, to], (*length, time[1]), between, noise);
+                add_noise(system, [from, to], (*length, time[1]), between, [noise, arguments]);
             }
             let least = noise[index - 1] / part;
             if least > magnitude.value.max(of_flight) {
@@ -585,14 +585,14 @@ impl Laws {
     }
 }
 
-/// Changes of the values of all laws at two states if their motions change by their round-off, for a model of this `length` [m] and a step of
-/// `size` [s]. At rest the values of a law, such as the flow between equal pressures, are nothing else.
+/// Changes of the values of all laws at two states if their motions change by their round-off, for a model of this `length` [m] and a step
+/// of `size` [s]. At rest the values of a law, such as the flow between equal pressures, are nothing else.
 fn add_noise(
     system: &System,
     ends: [&State; 2],
     (length, size): (f64, f64),
     moved: &mut State,
-    noise: &mut Vec<f64>,
+    [noise, exact]: [&mut Vec<f64>; 2],
 ) {
     let values = |at: &Kinematics, visit: &mut dyn FnMut(usize, f64)| {
         let mut index = 0;
@@ -601,7 +601,6 @@ fn add_noise(
             index += 1;
         });
     };
-    let mut exact = Vec::new();
     for end in ends {
         exact.clear();
         values(&end.kinematics, &mut |_, value| exact.push(value));
@@ -617,7 +616,8 @@ fn add_noise(
     }
 }
 
-/// Changes every number of a motion by as much as a step does not determine, so that of two phases that differ by a quarter of a turn one is not small.
+/// Changes every number of a motion by as much as a step does not determine, so that one of two phases that differ by a quarter of a turn
+/// is not small.
 fn disturb(layout: &Layout, at: &mut Kinematics, (length, size): (f64, f64), mut phase: f64) {
     let mut by = |scale: f64| {
         phase += PHASE;

@@ -144,11 +144,10 @@ impl Element for Friction {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        let (spring, strain, bristle): (&dyn Spring, &dyn StrainSlopes, &dyn Bristle) = (self, self, self);
         Capabilities {
-            spring: Some(spring),
-            strain: Some(strain),
-            bristle: Some(bristle),
+            spring: Some(self),
+            strain: Some(self),
+            bristle: Some(self),
             ..Capabilities::default()
         }
     }
@@ -181,7 +180,7 @@ impl Bristle for Friction {
         is_sudden.then_some((self.coordinates[1], steady))
     }
 
-    /// With the path s of the coordinate in one direction, the deflection z₀ at its start and that of steady sliding z_s = g/σ₀:
+    /// With g constant, the path s of the coordinate in one direction, the deflection z₀ at its start and that of steady sliding z_s = g/σ₀:
     ///
     /// ```text
     /// z(s) = z_s + (z₀ - z_s) exp(-s/z_s)
@@ -190,10 +189,12 @@ impl Bristle for Friction {
         let [start, end] = [from, to].map(|at| at.coordinates[self.coordinates[0]]);
         let change = end.value - start.value;
         let path = change.abs();
-        let steady = self.limit(0.5 * (start.rate + end.rate)).0 / self.stiffness;
+        let limits = [start, end].map(|coordinate| self.limit(coordinate.rate).0);
+        let steady = 0.5 * (limits[0] + limits[1]) / self.stiffness;
         let first = from.coordinates[self.coordinates[1]].value * change.signum();
         let turns = start.rate * change < 0.0 || end.rate * change < 0.0;
-        if turns || path <= UNRESOLVED * steady || (first - steady).abs() <= STEADY * steady {
+        let varies = (limits[1] - limits[0]).abs() > STEADY * limits[0];
+        if turns || varies || path <= UNRESOLVED * steady || (first - steady).abs() <= STEADY * steady {
             return None;
         }
         let share = -(-path / steady).exp_m1();

@@ -110,7 +110,6 @@ impl Session {
             read: Vec::new(),
             state_writers: Vec::new(),
             warnings: self.warnings.clone(),
-            walls: Arc::clone(&self.walls),
             ids: self.ids.clone(),
             began: Instant::now(),
         })

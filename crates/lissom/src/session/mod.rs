@@ -49,7 +49,7 @@ pub(crate) use observed::Observed;
 pub use prepared::{PartError, Prepared, StartError};
 use snapshot::NoCheckpoints;
 pub use snapshot::{Checkpoints, SessionSnapshot};
-use walls::Walls;
+use walls::ModelWarnings;
 
 /// Times this close to the end of a planned step, relative to the step, are equal to its end.
 const WHOLE: f64 = 1e-9;
@@ -100,8 +100,7 @@ pub struct Session {
     between: Box<State>,
     state_writers: Vec<Box<dyn StateWriter>>,
     /// Warnings of the model, before the run and at its end.
-    warnings: Vec<Warning>,
-    walls: Arc<[Walls]>,
+    warnings: ModelWarnings,
     /// Names of ids, if the model was built in code.
     ids: Option<Arc<IdNames>>,
     began: Instant,
@@ -165,7 +164,7 @@ impl Session {
             ..
         } = lowered;
         let origin = state.kinematics.time;
-        let walls = Walls::of(&names, &system, &state.kinematics).into();
+        let warnings = ModelWarnings::of(warnings, &names, (&system, &state.kinematics));
         let schedule = Schedule::new(plan, settings.step_size);
         let failed = |unit: &str| {
             let unit = unit.to_owned();
@@ -204,7 +203,6 @@ impl Session {
             signals: names.signals,
             schedule,
             warnings,
-            walls,
             ids: None,
             began,
         })
@@ -242,7 +240,7 @@ impl Session {
 
     /// Warnings so far.
     pub fn warnings(&self) -> impl Iterator<Item = &Warning> {
-        self.warnings.iter().chain(self.simulation.warnings())
+        self.warnings.all.iter().chain(self.simulation.warnings())
     }
 
     /// Time range and steps.
@@ -532,13 +530,7 @@ impl Session {
             Err(error) => Stopped::Failed(error),
         };
         if matches!(stopped, Stopped::End) {
-            let at = &self.simulation.state().kinematics;
-            let crossed = self.walls.iter().find_map(|walls| {
-                let [x, y, z]: [f64; 3] = walls.crossing(at)?.into();
-                let position = format!("{x:.4}, {y:.4}, {z:.4}");
-                Some(Warning::ShellCrossesItself { time: at.time, shell: walls.shell.clone(), position })
-            });
-            self.warnings.extend(crossed);
+            self.warnings.check_end(&self.simulation.state().kinematics);
         }
         self.timings.pause();
         self.check_expressions();
@@ -633,8 +625,8 @@ impl Session {
                 .fold(false, |any, own| any | own.has_finite());
             let warning = Warning::NeverFinite { output: channel.name.clone() };
             let is_doubtful = channel.kind == OutputKind::Expression && self.tally.records > 0 && !is_finite;
-            if is_doubtful && !self.warnings.contains(&warning) {
-                self.warnings.push(warning);
+            if is_doubtful && !self.warnings.all.contains(&warning) {
+                self.warnings.all.push(warning);
             }
         }
     }

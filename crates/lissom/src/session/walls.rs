@@ -1,8 +1,10 @@
 //! Whether walls of a shell without a contact with itself pass through each other.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use lissom_core::elements::Element;
+use lissom_core::errors::Warning;
 use lissom_core::kinematics::{Kinematics, NodeId};
 use lissom_core::system::System;
 use lissom_model::lower::Names;
@@ -14,9 +16,33 @@ const MIN_DEPTH: f64 = 0.01;
 /// Corners of an element.
 type Corners = [Vector3; 4];
 
+/// Warnings of a model beside those of its simulation, and what is checked at its end.
+#[derive(Clone)]
+pub(super) struct ModelWarnings {
+    pub(super) all: Vec<Warning>,
+    walls: Arc<[Walls]>,
+}
+
+impl ModelWarnings {
+    /// Warnings of a model, and its walls in the configuration at the start.
+    pub(super) fn of(all: Vec<Warning>, names: &Names, (system, start): (&System, &Kinematics)) -> Self {
+        Self { all, walls: Walls::of(names, system, start).into() }
+    }
+
+    /// Warns of walls that pass through each other at the end.
+    pub(super) fn check_end(&mut self, at: &Kinematics) {
+        let crossed = self.walls.iter().find_map(|walls| {
+            let [x, y, z]: [f64; 3] = walls.crossing(at)?.into();
+            let position = format!("{x:.4}, {y:.4}, {z:.4}");
+            Some(Warning::ShellCrossesItself { time: at.time, shell: walls.shell.clone(), position })
+        });
+        self.all.extend(crossed);
+    }
+}
+
 /// The elements of a shell.
-pub(super) struct Walls {
-    pub(super) shell: String,
+struct Walls {
+    shell: String,
     elements: Vec<[NodeId; 4]>,
     /// Corners at the start.
     start: Vec<Corners>,
@@ -24,7 +50,7 @@ pub(super) struct Walls {
 
 impl Walls {
     /// The shells of a model that have no contact with themselves, in its configuration at the start.
-    pub(super) fn of(names: &Names, system: &System, start: &Kinematics) -> Vec<Self> {
+    fn of(names: &Names, system: &System, start: &Kinematics) -> Vec<Self> {
         // A node and the element that it touches.
         let touches_itself = |nodes: &BTreeSet<NodeId>| {
             system.elements_with(|element| element.spring).any(|spring| {
@@ -44,7 +70,7 @@ impl Walls {
     }
 
     /// A position at which elements without common nodes cross that do not cross at the start.
-    pub(super) fn crossing(&self, at: &Kinematics) -> Option<Vector3> {
+    fn crossing(&self, at: &Kinematics) -> Option<Vector3> {
         let now = corners(&self.elements, at);
         let bounds: Vec<[Vector3; 2]> = now.iter().map(|corners| bounds(corners)).collect();
         let all = bounds.iter().copied().reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])])?;
