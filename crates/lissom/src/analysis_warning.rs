@@ -103,7 +103,7 @@ pub enum AnalysisWarning {
     NotProportional {
         /// The lowest such load factor.
         factor: f64,
-        /// Its relative error.
+        /// Relative error of the load factor.
         error: f64,
     },
     /// It is unknown whether a load factor was missed.
