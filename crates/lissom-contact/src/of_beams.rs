@@ -17,12 +17,12 @@ use nalgebra::{Matrix3x6, Matrix6x3, SMatrix};
 
 use crate::elastic::{Contact, ContactFriction, Dissipation, STATES};
 use crate::geometry::gap::Pair;
-use crate::geometry::hollow::Hollow;
 use crate::reading::{ContactElement, ContactReading};
 use lissom_flexible::beam::section::{Section, SectionMotion};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::{
-    Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block,
+    Capabilities, Element, Energy, ForceLaws, Limit, LimitKind, Place, Spring, StrainSlopes, Tangents,
+    Unknowns, Validity, add_block,
 };
 use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch};
 use lissom_mechanics::kinematics::{
@@ -250,7 +250,13 @@ impl Element for BeamContact {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), laws: Some(self), strain: Some(self), ..Capabilities::default() }
+        Capabilities {
+            spring: Some(self),
+            validity: Some(self),
+            laws: Some(self),
+            strain: Some(self),
+            ..Capabilities::default()
+        }
     }
 }
 
@@ -269,9 +275,9 @@ impl Spring for BeamContact {
         self.between(at, |contact, scratch, _| contact.spring_motion(&scratch.at))
     }
 
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+    fn spring_gradients(&self, at: &Kinematics) -> Option<[Gradient; 3]> {
         self.between(at, |contact, scratch, section| {
-            let of_two = contact.spring_gradients(&scratch.at);
+            let of_two = contact.spring_gradients(&scratch.at)?;
             let mut all = [Gradient::zero(), Gradient::zero(), Gradient::zero()];
             for (_, Carrier { slot, row, columns, twist_by }) in self.carriers(section, true) {
                 for (own, two) in all.iter_mut().zip(&of_two) {
@@ -285,17 +291,24 @@ impl Spring for BeamContact {
                     }
                 }
             }
-            all
+            Some(all)
         })
     }
+}
 
-    fn least_elongation(&self) -> Option<f64> {
-        self.contact.least_elongation()
+impl Validity for BeamContact {
+    fn limits(&self) -> &'static [LimitKind] {
+        self.contact.limits()
     }
 
-    fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
-        let found = self.between(at, |contact, scratch, _| Some(contact.hollow(&scratch.at)?.1))?;
-        Some((self.contact.name(), found))
+    fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        if self.is_idle(at) {
+            return None;
+        }
+        let [value, limit] = self.between(at, |contact, scratch, _| {
+            contact.limit(kind, [&scratch.at; 2]).map(|own| [own.value, own.limit])
+        })?;
+        Some(Limit { value, limit, place: Place::Contact(self.contact.name()) })
     }
 }
 

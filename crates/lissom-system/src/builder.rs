@@ -22,7 +22,7 @@ use self::drawn::{joint_rotation, start_rates, start_values};
 pub use self::joint::{BeamChain, JointAttachment};
 use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
-use super::feedback::{DrivenBatch, Feedback, LimitedPressure, Target};
+use super::feedback::{DrivenBatch, Feedback, LeastValue, Target};
 use super::state::State;
 use super::{ElementId, GivenVelocities, JointLanes, System};
 use lissom_contact::set::ContactSet;
@@ -92,7 +92,7 @@ pub struct Builder {
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
-    pressures: Vec<LimitedPressure>,
+    least_values: Vec<LeastValue>,
     contacts: ContactSet,
     /// Quantities of elements that signals depend on, with the batch of each.
     element_quantities: Vec<(usize, Arc<ElementQuantity>)>,
@@ -133,7 +133,7 @@ impl Builder {
             functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
-            pressures: Vec::new(),
+            least_values: Vec::new(),
             contacts: ContactSet::default(),
             element_quantities: Vec::new(),
             start_values: None,
@@ -418,7 +418,7 @@ impl Builder {
         let targets = std::mem::take(&mut self.targets);
         let mut feedback = Feedback::new(std::mem::take(&mut self.graph), targets, &layout)
             .map_err(|touches| BuildError::SignalTouchesTooMuch(touches.name))?;
-        feedback.pressures = std::mem::take(&mut self.pressures);
+        feedback.least_values = std::mem::take(&mut self.least_values);
         let joint_rows: Vec<Vec<u32>> =
             self.constraints.joints.iter().map(|joint| rows_of(joint, &layout)).collect();
         let mut placed: Vec<Placed> =
@@ -463,12 +463,8 @@ impl Builder {
         if !feedback.is_empty() {
             batches.push(Arc::new(feedback.clone()));
         }
-        let has_sheaves = batches.iter().any(|batch| {
-            batch.elements_with(|own| own.spring).any(lissom_mechanics::elements::Spring::has_sheaves)
-        });
         let system = System {
             layout,
-            has_sheaves,
             batches,
             joint_lanes: JointLanes {
                 batches: Batches::new(&self.constraints.joints),

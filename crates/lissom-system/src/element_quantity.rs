@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use lissom_mechanics::elements::{Element, Spring};
+use lissom_mechanics::elements::Element;
 use lissom_mechanics::evaluation::batch::{AnyBatch, ElementId};
 use lissom_mechanics::evaluation::work::{power, power_gradient};
 use lissom_mechanics::evaluation::wrench::{WrenchAxes, wrench, wrench_gradient};
@@ -16,8 +16,8 @@ use super::System;
 pub enum Of {
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
-    /// Slip and forces of a tyre.
-    Slip,
+    /// What the element reports under these words and units.
+    Reported(&'static [(&'static str, &'static str)]),
     /// Power that the element supplies to the rest of the model [W].
     Power,
     /// Force [N] and moment [N m] on the tip of an element between two frames.
@@ -29,7 +29,7 @@ impl Of {
     pub(crate) fn is_of(self, element: &dyn Element) -> bool {
         match self {
             Self::Spring => element.capabilities().spring.is_some(),
-            Self::Slip => element.capabilities().spring.is_some_and(Spring::has_slip),
+            Self::Reported(words) => element.capabilities().report.is_some_and(|own| own.words() == words),
             Self::Power => true,
             Self::Wrench(_) => element.capabilities().frames.is_some(),
         }
@@ -84,7 +84,8 @@ impl Measurement for ElementQuantity {
         match self.of {
             Of::Spring => 3,
             Of::Power => 1,
-            Of::Slip | Of::Wrench(_) => 6,
+            Of::Reported(words) => words.len(),
+            Of::Wrench(_) => 6,
         }
     }
 
@@ -97,9 +98,9 @@ impl Measurement for ElementQuantity {
                     values[..3].copy_from_slice(&spring.spring_motion(at));
                 }
             }
-            Of::Slip => {
-                if let Some(spring) = element.capabilities().spring {
-                    values = spring.slip(at);
+            Of::Reported(_) => {
+                if let Some(report) = element.capabilities().report {
+                    values = report.numbers(at);
                 }
             }
             Of::Power => values[0] = power(element, at),
@@ -114,8 +115,8 @@ impl Measurement for ElementQuantity {
 
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
         let gradient = self.element().and_then(|element| match self.of {
-            Of::Spring => Some(element.capabilities().spring?.spring_gradients(at)[component]),
-            Of::Slip => Some(element.capabilities().spring?.slip_gradients(at)[component]),
+            Of::Spring => Some(element.capabilities().spring?.spring_gradients(at)?[component]),
+            Of::Reported(_) => Some(element.capabilities().report?.gradients(at)[component]),
             Of::Power => power_gradient(element, at),
             Of::Wrench(axes) => {
                 let frames = element.capabilities().frames?;

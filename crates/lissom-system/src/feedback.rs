@@ -143,15 +143,15 @@ impl Driven {
     }
 }
 
-/// A pressure below which a fluid without air is torn apart.
+/// A value with a lower limit, beyond which the model is not valid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LimitedPressure {
-    /// Where it is.
-    pub node: Subject,
-    /// The pressure [Pa].
-    pub pressure: MeasurementId,
-    /// Limit [Pa].
-    pub limit: f64,
+pub struct LeastValue {
+    /// Whose value it is.
+    pub of: Subject,
+    /// The value.
+    pub value: MeasurementId,
+    /// Its limit.
+    pub least: f64,
 }
 
 /// The graph of signals and their targets.
@@ -159,8 +159,8 @@ pub struct LimitedPressure {
 pub struct Feedback {
     /// The signals.
     pub graph: Graph,
-    /// Pressures that have a lower limit.
-    pub pressures: Vec<LimitedPressure>,
+    /// Values with a lower limit.
+    pub least_values: Vec<LeastValue>,
     driven: Vec<Driven>,
     places: ScatterMap,
 }
@@ -186,7 +186,7 @@ impl Feedback {
             Driven::new(target, signal, &graph, layout).ok_or_else(touches)
         });
         let driven = driven.collect::<Result<_, _>>()?;
-        Ok(Self { graph, pressures: Vec::new(), driven, places: ScatterMap::new() })
+        Ok(Self { graph, least_values: Vec::new(), driven, places: ScatterMap::new() })
     }
 
     /// Whether signals have no targets.

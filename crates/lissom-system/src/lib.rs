@@ -41,13 +41,15 @@ use lissom_solver::Structure;
 
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
-pub use feedback::{DrivenBatch, Feedback, LimitedPressure, ScaledPower};
+pub use feedback::{DrivenBatch, Feedback, LeastValue, ScaledPower};
 use lissom_contact::rigid::RigidContact;
 use lissom_contact::set::ContactSet;
 use lissom_flexible::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
-use lissom_mechanics::elements::{Capabilities, Element, Energy, ForceLaws, Load, Unknowns};
+use lissom_mechanics::elements::{
+    Capabilities, Element, Energy, ForceLaws, LimitKind, Load, Unknowns, Validity,
+};
 use lissom_mechanics::evaluation::batch::AnyBatch;
 use lissom_mechanics::evaluation::scatter_map::ScatterMap;
 use lissom_mechanics::evaluation::work::{power, work};
@@ -99,8 +101,6 @@ pub struct System {
     pub beams: ExaminedBeams,
     /// Parts that touch without elements.
     pub contacts: Arc<ContactSet>,
-    /// Whether ropes pass over sheaves, which is checked in every step.
-    pub has_sheaves: bool,
 }
 
 /// Parts and joint coordinates with a given velocity at the start.
@@ -249,9 +249,9 @@ impl System {
         self.feedback.depends_on_motion() || self.layout.state_count() > 0
     }
 
-    /// Pressures that have a lower limit.
-    pub fn limited_pressures(&self) -> &[LimitedPressure] {
-        &self.feedback.pressures
+    /// Values with a lower limit.
+    pub fn least_values(&self) -> &[LeastValue] {
+        &self.feedback.least_values
     }
 
     /// Whether rates of states are algebraic unknowns.
@@ -285,6 +285,14 @@ impl System {
         capability: impl Fn(Capabilities<'s>) -> Option<&'s C> + Copy + 's,
     ) -> impl Iterator<Item = &'s C> {
         self.batches.iter().flat_map(move |batch| batch.elements_with(capability))
+    }
+
+    /// All elements of kinds with a kind of limits.
+    pub fn elements_with_limit(&self, kind: LimitKind) -> impl Iterator<Item = &dyn Validity> {
+        let has = move |batch: &&Arc<dyn AnyBatch>| {
+            batch.capabilities().validity.is_some_and(|own| own.limits().contains(&kind))
+        };
+        self.batches.iter().filter(has).flat_map(|batch| batch.elements_with(|own| own.validity))
     }
 
     /// Kinetic, elastic and potential energy of all elements [J]; of touches without elements see [`energy_of`](Self::energy_of).

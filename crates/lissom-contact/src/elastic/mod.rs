@@ -23,15 +23,14 @@ use nalgebra::SMatrix;
 
 use self::resistance::ContactResistance;
 use crate::geometry::gap::{Matrix3x6, Pair, side_by_side};
-use crate::geometry::hollow::Hollow;
 use crate::law::Coulomb;
 use crate::point::{ContactPoint, MovingSurface, PointMotion};
 use crate::reading::{ContactElement, ContactReading};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::force_law::Response;
 use lissom_mechanics::elements::{
-    Capabilities, Contribution, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns,
-    add_block,
+    Capabilities, Contribution, Element, Energy, ForceLaws, Limit, LimitKind, Place, Spring, StrainSlopes,
+    Tangents, Unknowns, Validity, add_block,
 };
 use lissom_mechanics::evaluation::capabilities::Load;
 use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
@@ -219,7 +218,7 @@ impl Measurement for ContactMotion {
     }
 
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
-        self.0.spring_gradients(at)[component]
+        self.0.spring_gradients(at).map_or_else(Gradient::zero, |all| all[component])
     }
 }
 
@@ -525,6 +524,7 @@ impl Element for Contact {
     fn capabilities(&self) -> Capabilities<'_> {
         Capabilities {
             spring: Some(self),
+            validity: Some(self),
             laws: Some(self),
             strain: Some(self),
             load: Some(self),
@@ -588,18 +588,7 @@ impl Spring for Contact {
         [touch.at.gap.value, touch.at.rate(), touch.normal_force[0]]
     }
 
-    /// Half of the penetration at which the solids are within each other.
-    fn least_elongation(&self) -> Option<f64> {
-        let deepest = self.point.pair.deepest();
-        deepest.is_finite().then_some(-0.5 * deepest)
-    }
-
-    fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
-        let found = self.point.pair.hollow(&self.point.frames.relative(at).position)?;
-        Some((&self.name, found))
-    }
-
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+    fn spring_gradients(&self, at: &Kinematics) -> Option<[Gradient; 3]> {
         let touch = self.touch(at);
         let gap_by = touch.at.gap_by().transpose();
         let rate_by = touch.at.rate_by(&touch.at.velocity_by());
@@ -611,7 +600,28 @@ impl Spring for Contact {
             rate.by_rate[slots].copy_from_slice((rate_by[1] * columns).as_slice());
         }
         let [force, by_depth, by_closing] = touch.normal_force;
-        Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate])
+        Some(Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate]))
+    }
+}
+
+impl Validity for Contact {
+    fn limits(&self) -> &'static [LimitKind] {
+        &[LimitKind::Depth, LimitKind::Hollow]
+    }
+
+    fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        let pair = &self.point.pair;
+        let [value, limit] = match kind {
+            LimitKind::Depth if pair.deepest().is_finite() && !self.is_apart(at) => {
+                [-self.point.gap(at), 0.5 * pair.deepest()]
+            }
+            LimitKind::Hollow => {
+                let found = pair.hollow(&self.point.frames.relative(at).position)?;
+                [found.remaining, found.depth]
+            }
+            _ => return None,
+        };
+        Some(Limit { value, limit, place: Place::Contact(&self.name) })
     }
 }
 

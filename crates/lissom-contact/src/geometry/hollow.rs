@@ -6,11 +6,19 @@
 //! δ₂ - δ₁ n₁·n₂     penetration of side 2 that remains after a displacement δ₁ n₁
 //! ```
 
-pub use lissom_mechanics::evaluation::capabilities::Hollow;
+use lissom_mechanics::round_off;
 use lissom_motion::Vector3;
 
 use super::surfaces::Surface;
-use lissom_mechanics::round_off;
+
+/// Penetrations of two sides of a surface by a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hollow {
+    /// Penetration of the nearest side [m].
+    pub depth: f64,
+    /// Penetration of the other side, after a displacement of the ball out of the nearest one [m].
+    pub remaining: f64,
+}
 
 /// The side whose penetration remains largest when a ball about y leaves the nearest one; none if no penetration remains.
 pub(super) fn hollow(surface: &dyn Surface, y: &Vector3, radius: f64) -> Option<Hollow> {

@@ -24,7 +24,8 @@ use crate::geometry::gap::side_by_side;
 use crate::reading::{ContactElement, ContactReading};
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::elements::{
-    Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns, add_block,
+    Capabilities, Element, Energy, ForceLaws, Limit, LimitKind, Spring, Tangents, Unknowns, Validity,
+    add_block,
 };
 use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use lissom_mechanics::joints::centerline::SUPPORT;
@@ -298,7 +299,7 @@ impl Element for NearestContact {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), laws: Some(self), ..Capabilities::default() }
+        Capabilities { spring: Some(self), validity: Some(self), laws: Some(self), ..Capabilities::default() }
     }
 }
 
@@ -329,16 +330,23 @@ impl Spring for NearestContact {
         [touch.distance - self.radius, touch.rate, touch.share[0] * touch.force[0]]
     }
 
-    /// Not available: it depends on more nodes than a gradient has places, and no output asks for it.
-    fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {
-        let mut none = Gradient::zero();
-        none.by_place.fill(f64::NAN);
-        [none; 3]
+    fn spring_gradients(&self, _: &Kinematics) -> Option<[Gradient; 3]> {
+        None
+    }
+}
+
+impl Validity for NearestContact {
+    fn limits(&self) -> &'static [LimitKind] {
+        &[LimitKind::Depth]
     }
 
     /// Beyond the axes the force would be in the opposite direction.
-    fn least_elongation(&self) -> Option<f64> {
-        Some(-0.5 * self.radius)
+    fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        if kind != LimitKind::Depth || self.is_idle(at) {
+            return None;
+        }
+        let depth = self.radius - self.touch(at).distance;
+        Some(Limit::of_element(depth, 0.5 * self.radius))
     }
 }
 

@@ -25,7 +25,8 @@ use lissom_flexible::shell::quadrilateral::NODES;
 use lissom_mechanics::compliance::Compliance;
 use lissom_mechanics::dual::{Dual, Number, Three, cross, dot, sum, times};
 use lissom_mechanics::elements::{
-    Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns,
+    Capabilities, Element, Energy, ForceLaws, Limit, LimitKind, Spring, StrainSlopes, Tangents, Unknowns,
+    Validity,
 };
 use lissom_mechanics::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use lissom_mechanics::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, Switch, split};
@@ -387,7 +388,13 @@ impl Element for ShellContact {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { spring: Some(self), laws: Some(self), strain: Some(self), ..Capabilities::default() }
+        Capabilities {
+            spring: Some(self),
+            validity: Some(self),
+            laws: Some(self),
+            strain: Some(self),
+            ..Capabilities::default()
+        }
     }
 }
 
@@ -428,16 +435,23 @@ impl Spring for ShellContact {
         [-self.depth(&touch), moved.rate(&touch), normal]
     }
 
-    /// Not available: it depends on more nodes than a gradient has places, and no output asks for it.
-    fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {
-        let mut none = Gradient::zero();
-        none.by_place.fill(f64::NAN);
-        [none; 3]
+    fn spring_gradients(&self, _: &Kinematics) -> Option<[Gradient; 3]> {
+        None
+    }
+}
+
+impl Validity for ShellContact {
+    fn limits(&self) -> &'static [LimitKind] {
+        &[LimitKind::Depth]
     }
 
     /// Beyond the surface the force would be in the opposite direction.
-    fn least_elongation(&self) -> Option<f64> {
-        Some(-0.5 * self.radius)
+    fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        if kind != LimitKind::Depth || self.is_idle(at) {
+            return None;
+        }
+        let depth = self.depth(&self.touch(at, &self.foot(at)).1);
+        Some(Limit::of_element(depth, 0.5 * self.radius))
     }
 }
 

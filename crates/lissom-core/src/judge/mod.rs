@@ -11,9 +11,11 @@ pub(crate) mod start;
 use std::f64::consts::PI;
 
 use crate::consistent::redundancy::{GEOMETRIC_TOLERANCE, Redundancy};
+use crate::elements::{LimitKind, Place};
 use crate::energy_balance::{EnergyBalance, StepWork};
 use crate::errors::{MAX_LISTED, StepError, Warning};
 use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
+use crate::monitors::limits::{exceeded, parts};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Problem;
@@ -72,9 +74,7 @@ impl Judge<'_> {
     ) -> Result<(EnergyBalance, f64), StepError> {
         let violation = self.constraints(end)?;
         self.sliders(end)?;
-        if self.system.has_sheaves {
-            ropes(self.system, &end.kinematics)?;
-        }
+        ropes(self.system, &end.kinematics)?;
         if self.is_motion {
             positive_mass(self.system, &end.kinematics)?;
         }
@@ -239,14 +239,10 @@ fn overlaps(system: &System, at: &Kinematics) -> Result<(), StepError> {
 
 /// Fails if a rope under tension no longer lies on one of its sheaves.
 fn ropes(system: &System, at: &Kinematics) -> Result<(), StepError> {
-    for rope in system.elements_with(|own| own.spring) {
-        let Some((index, how)) = rope.off_sheave(at) else { continue };
-        let name = |node| system.layout().name_of_node(node).to_owned();
-        let parts = rope.unknowns().nodes.iter().copied().filter(|&node| node != GROUND).map(name);
-        let parts = parts.collect::<Vec<_>>().join("` and `");
-        return Err(StepError::OffSheave { time: at.time, parts, point: index + 1, how });
-    }
-    Ok(())
+    let Some((rope, beyond)) = exceeded(system, (LimitKind::Sheave, 1.0), [at; 2]) else { return Ok(()) };
+    let Place::Point(index, how) = beyond.place else { return Ok(()) };
+    let parts = parts(system, rope).join("` and `");
+    Err(StepError::OffSheave { time: at.time, parts, point: index + 1, how })
 }
 
 /// Fails if two nodes of an element are rotated relative to each other by nearly half a turn or more.

@@ -4,17 +4,15 @@
 //! without a monitor can be restored with it.
 
 mod beam_strains;
-mod cavitation;
 pub(crate) mod constraint_rates;
 pub(crate) mod contact;
 mod drives;
 mod energy_drift;
 mod energy_surplus;
 mod equilibrium_jump;
-mod hollows;
 mod impacts;
 mod instants;
-mod linear_range;
+pub(crate) mod limits;
 mod monitor;
 mod pairs;
 mod penetration;
@@ -26,15 +24,13 @@ mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;
 mod table_ranges;
-mod tyre_loads;
 mod unresolved_forces;
-mod zero_lengths;
 
 use std::any::Any;
 
 use monitor::Monitor;
 pub(crate) use monitor::{Accepted, Beginning};
-pub(crate) use penetration::{beyond_stop, overlap, slack_rope};
+pub(crate) use penetration::overlap;
 
 use crate::errors::StepError;
 use crate::errors::Warning;
@@ -56,7 +52,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "resolution", begin: resolution::begin },
     Kind { name: "scheme-damping", begin: scheme_damping::begin },
     Kind { name: "contact", begin: contact::begin },
-    Kind { name: "linear-range", begin: linear_range::begin },
+    Kind { name: "limits", begin: limits::begin },
     Kind { name: "redundant-misfit", begin: redundant_misfit::begin },
     Kind { name: "drives", begin: drives::begin },
     Kind { name: "energy-drift", begin: energy_drift::begin },
@@ -65,15 +61,11 @@ const KINDS: &[Kind] = &[
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
     Kind { name: "penetration", begin: penetration::begin },
-    Kind { name: "cavitation", begin: cavitation::begin },
-    Kind { name: "tyre-loads", begin: tyre_loads::begin },
-    Kind { name: "hollows", begin: hollows::begin },
     Kind { name: "beam-strains", begin: beam_strains::begin },
     Kind { name: "section-forces", begin: section_forces::begin },
     Kind { name: "unresolved-forces", begin: unresolved_forces::begin },
     Kind { name: "stability", begin: stability::begin },
     Kind { name: "table-ranges", begin: table_ranges::begin },
-    Kind { name: "zero-lengths", begin: zero_lengths::begin },
 ];
 
 /// The monitors of one simulation.

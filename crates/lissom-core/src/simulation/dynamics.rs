@@ -19,6 +19,7 @@ use crate::errors::InitialError;
 use crate::errors::StepError;
 use crate::errors::Warning;
 use crate::errors::step_error::describe;
+use crate::errors::warn;
 use crate::integrator::workspace::Workspace;
 use crate::integrator::{Attempt, Integrator, Start, pivoting_unless_augmented};
 use crate::judge::{self, Judge};
@@ -291,9 +292,10 @@ fn begin_motion(
     let negligible = judge::start::negligible(representative, settings.step_size);
     judge::start::rates(system, representative, (&rates, specified.max(used), negligible))?;
     warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
-    warnings.extend(monitors::overlap(system, &state.kinematics));
-    warnings.extend(monitors::beyond_stop(system, &state.kinematics));
-    warnings.extend(monitors::slack_rope(system, &state.kinematics));
+    let at = &state.kinematics;
+    monitors::limits::at_start(system, at)
+        .chain(monitors::overlap(system, at))
+        .for_each(|warning| warn(warnings, warning));
     if settings.control.is_none() {
         for bristle in system.elements_with(|own| own.bristle) {
             if let Some((deflection, steady)) = bristle.steady_at_start(&state.kinematics, settings.step_size)

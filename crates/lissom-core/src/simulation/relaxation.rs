@@ -10,7 +10,7 @@ use std::sync::Arc;
 use lissom_solver::SolverKind;
 
 use super::equilibrium::free_motion;
-use crate::elements::Spring;
+use crate::elements::{LimitKind, Validity};
 use crate::errors::StepError;
 use crate::errors::Warning;
 use crate::errors::step_error::LOADS_BEFORE_DRIVES;
@@ -51,8 +51,9 @@ pub(crate) fn may_help(error: &StepError, system: &System, state: &State, solver
         // Nothing resists ropes without tension: inertia holds what hangs on them until they are taut. Other mechanisms are rejected;
         // what bends may be singular in an iterate far from the start without being one.
         StepError::ZeroPivot { .. } => {
-            let is_slack = |spring: &dyn Spring| spring.slack(&state.kinematics).is_some();
-            system.elements_with(|own| own.spring).any(is_slack)
+            let at = [&state.kinematics; 2];
+            let is_rope = |own: &dyn Validity| own.limit(LimitKind::Slack, at).is_some();
+            system.elements_with_limit(LimitKind::Slack).any(is_rope)
                 || system.elements_with(|own| own.deformation).next().is_some()
                     && free_motion(system, state, solver).is_none()
         }

@@ -63,7 +63,8 @@ use self::second_order::{Deformed, SecondOrder};
 use self::vectors::{product, three};
 use lissom_mechanics::elements::inertia::Gravity;
 use lissom_mechanics::elements::{
-    Capabilities, Deformable, Element, Energy, LinearLimit, LinearRange, OwnInertia, Tangents, Unknowns,
+    Capabilities, Deformable, Element, Energy, Limit, LimitKind, OwnInertia, Place, Tangents, Unknowns,
+    Validity,
 };
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId, Stressed, split};
@@ -214,7 +215,12 @@ impl Element for Superelement {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { deformation: Some(self), inertia: Some(self), ..Capabilities::default() }
+        Capabilities {
+            deformation: Some(self),
+            validity: Some(self),
+            inertia: Some(self),
+            ..Capabilities::default()
+        }
     }
 }
 
@@ -265,34 +271,41 @@ impl Deformable for Superelement {
         });
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }
+}
 
-    fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
+impl Validity for Superelement {
+    fn limits(&self) -> &'static [LimitKind] {
+        &[LimitKind::Deformation, LimitKind::Spin, LimitKind::Load, LimitKind::Moment, LimitKind::LeftOut]
+    }
+
+    fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        let used = |part: f64, node| Some(Limit { value: part, limit: 1.0, place: Place::Node(node) });
         let reach = self.part.reach();
         let frame = self.part.nodes[self.part.frame];
         let spin = split(&at.nodes[frame].twist).1;
-        if limit == LinearLimit::Spin {
-            return self.largest_spin.map(|most| LinearRange { part: spin.norm() / most, node: frame });
+        if kind == LimitKind::Spin {
+            return used(spin.norm() / self.largest_spin?, frame);
         }
         SCRATCH.with_borrow_mut(|ThreadScratch { own: scratch, .. }| {
             scratch.enter(&self.part, at);
-            if limit == LinearLimit::LeftOut {
+            if kind == LimitKind::LeftOut {
                 let estimate = self.left_out.as_ref()?;
                 product(&self.part.stiffness, &scratch.displacement, &mut scratch.stress);
                 let share = estimate.share(&self.part, at, &scratch.stress)?;
-                return Some(LinearRange { part: share / MAX_ERROR, node: frame });
+                return used(share / MAX_ERROR, frame);
             }
-            if limit != LinearLimit::Deformation {
+            if kind != LimitKind::Deformation {
                 let estimate = self.load_stiffness.as_ref()?;
                 product(&self.part.stiffness, &scratch.displacement, &mut scratch.stress);
-                let share = match limit {
-                    LinearLimit::Moment => {
+                let share = match kind {
+                    LimitKind::Moment => {
                         estimate.share_of_moments(&self.part, (&scratch.displacement, &scratch.stress))?
                     }
                     // Second-order matrices include it.
                     _ if self.second_order.is_some() => return None,
                     _ => estimate.share(&self.part, (&scratch.displacement, &scratch.stress, &spin))?,
                 };
-                return Some(LinearRange { part: share / MAX_SHARE, node: frame });
+                return used(share / MAX_SHARE, frame);
             }
             let deformed = |i: usize| {
                 let (linear, angular) = (
@@ -300,12 +313,11 @@ impl Deformable for Superelement {
                     three(&scratch.displacement, 6 * i + 3).norm(),
                 );
                 let by_length = if reach > 0.0 { linear / (MAX_DISPLACEMENT * reach) } else { 0.0 };
-                let part = by_length.max(angular / MAX_ROTATION);
-                LinearRange { part, node: self.part.nodes[i] }
+                (by_length.max(angular / MAX_ROTATION), self.part.nodes[i])
             };
-            (0..self.part.nodes.len())
-                .map(deformed)
-                .reduce(|most, own| if own.part > most.part { own } else { most })
+            let most = |most: (f64, _), own: (f64, _)| if own.0 > most.0 { own } else { most };
+            let (part, node) = (0..self.part.nodes.len()).map(deformed).reduce(most)?;
+            used(part, node)
         })
     }
 }

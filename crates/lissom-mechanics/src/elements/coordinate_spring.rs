@@ -131,8 +131,4 @@ impl Measure for Elongation {
     fn add_force(&self, _: &[f64; 2], force: f64, out: &mut [f64]) {
         out[0] += force;
     }
-
-    fn coordinate(&self) -> Option<CoordinateId> {
-        Some(self.coordinate[0])
-    }
 }

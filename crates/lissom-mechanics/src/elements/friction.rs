@@ -165,10 +165,10 @@ impl Spring for Friction {
         [coordinate.value, coordinate.rate, forces[0]]
     }
 
-    fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {
+    fn spring_gradients(&self, _: &Kinematics) -> Option<[Gradient; 3]> {
         let ([value, rate], [deflection, deflecting]) = (Gradient::of_unknown(0), Gradient::of_unknown(1));
         let elastic = Gradient::zero().plus(self.stiffness, &deflection).plus(self.damping, &deflecting);
-        [value, rate, elastic.plus(self.viscous, &rate)]
+        Some([value, rate, elastic.plus(self.viscous, &rate)])
     }
 }
 

@@ -45,8 +45,9 @@ pub use kind::{Attached, ElementKind, Sheave};
 pub use kinds::{LOADS, SPRINGS};
 
 pub use crate::evaluation::capabilities::{
-    Bristle, Capabilities, Deformable, ForceLaws, LinearLimit, LinearRange, Load, OwnInertia, Spring,
-    StrainSlopes,
+    Bristle, Capabilities, Deformable, ForceLaws, Load, OwnInertia, Spring, StrainSlopes,
 };
 pub use crate::evaluation::element::{Element, Energy, Tangents, Unknowns, is_same};
+pub use crate::evaluation::limits::{Limit, LimitKind, Place, Validity};
+pub use crate::evaluation::report::Report;
 pub use crate::kinematics::local_derivatives::add_block;

@@ -9,15 +9,15 @@
 
 use std::fmt::Debug;
 
-use lissom_motion::Vector3;
-
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response};
 use super::initial_model::InitialModel;
-use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns};
+use super::{
+    Capabilities, Element, Energy, ForceLaws, Limit, LimitKind, Load, Spring, Tangents, Unknowns, Validity,
+};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Switch};
+use crate::kinematics::{CarriedFrame, Kinematics, Switch};
 use crate::law::VisitLaw;
 use crate::signals::measurement::Gradient;
 
@@ -65,31 +65,21 @@ pub(crate) trait Measure: Clone + Debug + Send + Sync + 'static {
         visit(law, &Self::motion(reading));
     }
 
-    /// The coordinate that is measured. Default: none.
-    fn coordinate(&self) -> Option<CoordinateId> {
-        None
-    }
-
     /// Frames of base and tip, if the force acts between two. Default: none.
     fn frames(&self) -> Option<[CarriedFrame; 2]> {
         None
     }
 
-    /// Nodes of both ends, the vector between the ends, and the measure at which they meet. Default: it has no ends.
-    fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3, f64)> {
-        None
-    }
+    /// Its kinds of limits.
+    const LIMITS: &'static [LimitKind] = &[];
 
-    /// Length by which a rope is longer than the way along its points, and its length [m]. Default: it is no rope.
-    fn slack(&self, _at: &Kinematics) -> Option<[f64; 2]> {
-        None
-    }
-
-    /// Whether it is the length of a rope over sheaves.
-    const HAS_SHEAVES: bool = false;
-
-    /// The first point at which a rope no longer lies on its sheave, and how. Default: it has no sheaves.
-    fn off_sheave(&self, _at: &Kinematics) -> Option<(usize, String)> {
+    /// A limit over a step under a force at a configuration. Default: it has none.
+    fn limit(
+        &self,
+        _kind: LimitKind,
+        _step: [&Kinematics; 2],
+        _force: &dyn Fn([f64; 2], &Kinematics) -> f64,
+    ) -> Option<Limit<'_>> {
         None
     }
 }
@@ -122,8 +112,11 @@ pub(crate) trait MeasuredLaw: Clone + Debug + Send + Sync + 'static {
         None
     }
 
-    /// Distance beyond a stop, and a distance that is small to it. Default: it is no stop.
-    fn beyond_stop(&self, _value: f64) -> Option<[f64; 2]> {
+    /// Its kinds of limits; those of its measure otherwise.
+    const LIMITS: &'static [LimitKind] = &[];
+
+    /// A limit of the law at a value of the measure. Default: it has none.
+    fn limit(&self, _value: f64) -> Option<Limit<'_>> {
         None
     }
 }
@@ -196,8 +189,16 @@ impl<M: Measure, L: MeasuredLaw> Element for OverMeasure<M, L> {
 
     fn capabilities(&self) -> Capabilities<'_> {
         let load: Option<&dyn Load> = if L::SUPPLIES { Some(self) } else { None };
+        let validity: Option<&dyn Validity> = if self.limits().is_empty() { None } else { Some(self) };
         let frames = self.measure.frames();
-        Capabilities { load, frames, spring: Some(self), laws: Some(self), ..Capabilities::default() }
+        Capabilities {
+            load,
+            validity,
+            frames,
+            spring: Some(self),
+            laws: Some(self),
+            ..Capabilities::default()
+        }
     }
 }
 
@@ -212,18 +213,6 @@ impl<M: Measure, L: MeasuredLaw> Load for OverMeasure<M, L> {
 }
 
 impl<M: Measure, L: MeasuredLaw> Spring for OverMeasure<M, L> {
-    fn has_sheaves(&self) -> bool {
-        M::HAS_SHEAVES
-    }
-
-    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)> {
-        let reading = self.measure.read(at);
-        if self.response(&reading, at).force == 0.0 {
-            return None;
-        }
-        self.measure.off_sheave(at)
-    }
-
     fn dissipates(&self) -> bool {
         self.law.dissipates()
     }
@@ -234,24 +223,23 @@ impl<M: Measure, L: MeasuredLaw> Spring for OverMeasure<M, L> {
         [value, rate, self.response(&reading, at).force]
     }
 
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+    fn spring_gradients(&self, at: &Kinematics) -> Option<[Gradient; 3]> {
         let reading = self.measure.read(at);
-        self.response(&reading, at).gradients(self.measure.gradients(&reading))
+        Some(self.response(&reading, at).gradients(self.measure.gradients(&reading)))
+    }
+}
+
+impl<M: Measure, L: MeasuredLaw> Validity for OverMeasure<M, L> {
+    fn limits(&self) -> &'static [LimitKind] {
+        if L::LIMITS.is_empty() { M::LIMITS } else { L::LIMITS }
     }
 
-    fn beyond_stop(&self, at: &Kinematics) -> Option<(CoordinateId, [f64; 2])> {
-        let coordinate = self.measure.coordinate()?;
-        Some((coordinate, self.law.beyond_stop(at.coordinates[coordinate].value)?))
-    }
-
-    fn slack(&self, at: &Kinematics) -> Option<[f64; 2]> {
-        self.measure.slack(at)
-    }
-
-    fn span(&self, at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
-        let (nodes, span, closed) = self.measure.span(at)?;
-        let at_zero = self.law.response([closed, 0.0], self.switch_states.of(at)).force;
-        (at_zero != 0.0).then_some((nodes, span))
+    fn limit(&self, kind: LimitKind, step: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        if L::LIMITS.contains(&kind) {
+            return self.law.limit(M::motion(&self.measure.read(step[1]))[0]);
+        }
+        let force = |motion, at: &Kinematics| self.law.response(motion, self.switch_states.of(at)).force;
+        self.measure.limit(kind, step, &force)
     }
 }
 

@@ -15,7 +15,7 @@ use nalgebra::{RowVector6, SMatrix};
 use super::force_law::ForceLaw;
 use super::law_of_distance::{self, LawOfDistance};
 use super::over_measure::{Measure, StageForce};
-use super::{Tangents, Unknowns, add_block};
+use super::{Limit, LimitKind, Tangents, Unknowns, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, NodeMotion, split};
 use crate::law::VisitLaw;
@@ -315,13 +315,29 @@ impl<const N: usize> Measure for Polyline<N> {
         self.frames
     }
 
-    fn span(&self, at: &Kinematics) -> Option<([NodeId; 2], Vector3, f64)> {
-        let [from, to] = self.frames.as_ref()?;
-        let [a, b] = [from, to].map(|own| at.nodes[own.node].frame.transform_point(&own.offset.position));
-        Some(([from.node, to.node], b - a, -self.free(at)[0]))
-    }
+    const LIMITS: &'static [LimitKind] = &[LimitKind::Slack, LimitKind::Reversal];
 
-    fn slack(&self, at: &Kinematics) -> Option<[f64; 2]> {
-        self.frames.is_none().then(|| [-self.read(at).motion[0], self.length.value(at.time)])
+    fn limit(
+        &self,
+        kind: LimitKind,
+        step: [&Kinematics; 2],
+        force: &dyn Fn([f64; 2], &Kinematics) -> f64,
+    ) -> Option<Limit<'_>> {
+        match (kind, &self.frames) {
+            (LimitKind::Slack, None) => {
+                let [_, at] = step;
+                Some(Limit::of_element(-self.read(at).motion[0], self.length.value(at.time)))
+            }
+            (LimitKind::Reversal, Some(ends)) => {
+                let span = |at: &Kinematics| {
+                    let [a, b] =
+                        ends.map(|own| at.nodes[own.node].frame.transform_point(&own.offset.position));
+                    (force([-self.free(at)[0], 0.0], at) != 0.0).then(|| b - a)
+                };
+                let [before, after] = [span(step[0])?, span(step[1])?];
+                Some(Limit::of_element(-before.dot(&after), 0.0))
+            }
+            _ => None,
+        }
     }
 }

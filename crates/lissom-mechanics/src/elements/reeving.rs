@@ -24,7 +24,7 @@ use super::kind::Sheave;
 use super::over_measure::{Measure, StageForce};
 use super::polyline::{Point, Polyline};
 use super::rope::MAX_PLACES;
-use super::{Tangents, Unknowns, add_block};
+use super::{Limit, LimitKind, Place, Tangents, Unknowns, add_block};
 use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, Kinematics, MAX_NODES, USUAL_UNKNOWNS};
@@ -493,14 +493,33 @@ impl Measure for Reeving {
         self.line.breakpoints()
     }
 
-    fn slack(&self, at: &Kinematics) -> Option<[f64; 2]> {
-        Some([-self.read(at).motion[0], self.line.length.value(at.time)])
-    }
+    const LIMITS: &'static [LimitKind] = &[LimitKind::Slack, LimitKind::Sheave];
 
-    const HAS_SHEAVES: bool = true;
-
-    fn off_sheave(&self, at: &Kinematics) -> Option<(usize, String)> {
+    fn limit(
+        &self,
+        kind: LimitKind,
+        [_, at]: [&Kinematics; 2],
+        force: &dyn Fn([f64; 2], &Kinematics) -> f64,
+    ) -> Option<Limit<'_>> {
         let shape = self.read(at);
+        if kind == LimitKind::Slack {
+            return Some(Limit::of_element(-shape.motion[0], self.line.length.value(at.time)));
+        }
+        if kind != LimitKind::Sheave || force(shape.motion, at) == 0.0 {
+            return None;
+        }
+        let (index, how) = self.off_sheave(&shape, |own| at.coordinates[own].value)?;
+        Some(Limit { value: 1.0, limit: 0.0, place: Place::Point(index, how) })
+    }
+}
+
+impl Reeving {
+    /// The first point at which it no longer lies on its sheave, and how.
+    fn off_sheave(
+        &self,
+        shape: &Shape,
+        value: impl Fn(CoordinateId) -> f64 + Copy,
+    ) -> Option<(usize, String)> {
         if !shape.exists {
             return Some((1, "has no tangent between two sheaves or drums, which overlap".to_owned()));
         }
@@ -511,7 +530,6 @@ impl Measure for Reeving {
                 return Some((index, format!("leaves the plane of the sheave at {angle:.0} degrees")));
             }
             let is_end = index == 0 || index + 1 == shape.count;
-            let value = |own: CoordinateId| at.coordinates[own].value;
             let [_, angle] = self.turned(&shape.points, shape.spans(), (index, own), value);
             let degrees = angle.to_degrees();
             // A direction that is nearly reversed could have turned either way.

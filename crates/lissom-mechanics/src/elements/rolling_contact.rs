@@ -524,7 +524,7 @@ impl Spring for RollingContact {
         [touch.gap, touch.gap_rate, touch.normal[0]]
     }
 
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+    fn spring_gradients(&self, at: &Kinematics) -> Option<[Gradient; 3]> {
         let touch = self.touch(at);
         let closing = self.closing(&touch);
         let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
@@ -535,7 +535,7 @@ impl Spring for RollingContact {
         }
         rate.by_rate = gap.by_place;
         let [force, stiffness, damping] = touch.normal;
-        Response { force, stiffness, damping }.gradients([gap, rate])
+        Some(Response { force, stiffness, damping }.gradients([gap, rate]))
     }
 }
 

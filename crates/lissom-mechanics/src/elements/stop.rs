@@ -7,6 +7,7 @@ use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::over_measure::{MeasuredLaw, OverMeasure};
+use super::{Limit, LimitKind};
 use crate::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
 use crate::evaluation::switch_states::is_on_upper_branch;
 use crate::kinematics::{Quantity, Switch};
@@ -182,12 +183,14 @@ impl MeasuredLaw for Stops {
         out.extend(self.depths(value).map(Switch::from));
     }
 
-    fn beyond_stop(&self, value: f64) -> Option<[f64; 2]> {
+    const LIMITS: &'static [LimitKind] = &[LimitKind::Stop];
+
+    fn limit(&self, value: f64) -> Option<Limit<'_>> {
         let [low, high] = self.range;
         let finite = [low, high].map(|end| if end.is_finite() { end.abs() } else { 0.0 });
         let range =
             if (high - low).is_finite() { high - low } else { finite[0].max(finite[1]).max(MIN_RANGE) };
         let depth = self.depths(value).into_iter().fold(0.0, f64::max);
-        (depth > 0.0).then_some([depth, range])
+        (depth > 0.0).then(|| Limit::of_element(depth, range))
     }
 }

@@ -4,6 +4,8 @@
 use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
+use super::limits::Validity;
+use super::report::Report;
 use super::work::{power, work};
 use crate::kinematics::{
     CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Stressed, Subject, Switch,
@@ -11,15 +13,6 @@ use crate::kinematics::{
 use crate::law::VisitLaw;
 use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
-
-/// Penetrations of two sides of a surface by a ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hollow {
-    /// Penetration of the nearest side [m].
-    pub depth: f64,
-    /// Penetration of the other side, after a displacement of the ball out of the nearest one [m].
-    pub remaining: f64,
-}
 
 /// Capabilities of an element, the same for all elements of a kind: a loop over a batch ends at the first element
 /// without the one it needs.
@@ -29,6 +22,10 @@ pub struct Capabilities<'e> {
     pub load: Option<&'e dyn Load>,
     /// An elongation with its force.
     pub spring: Option<&'e dyn Spring>,
+    /// Limits within which its laws and data are valid.
+    pub validity: Option<&'e dyn Validity>,
+    /// Numbers of its own.
+    pub report: Option<&'e dyn Report>,
     /// Frames of base and tip between which it exerts a force and a moment.
     pub frames: Option<[CarriedFrame; 2]>,
     /// Laws of its forces, with their kinks and jumps.
@@ -97,72 +94,11 @@ pub trait Spring: Element {
     /// Elongation, its rate and the opposing force [SI].
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3];
 
-    /// Derivatives of these three numbers with respect to its local unknowns.
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3];
+    /// Derivatives of these three numbers with respect to its local unknowns; none if these are more than a gradient has places.
+    fn spring_gradients(&self, at: &Kinematics) -> Option<[Gradient; 3]>;
 
     /// Whether its force may dissipate energy at some elongation.
     fn dissipates(&self) -> bool;
-
-    /// The elongation below which it describes no real part [m], as where two solids in contact penetrate each other almost
-    /// completely. Default: there is none.
-    fn least_elongation(&self) -> Option<f64> {
-        None
-    }
-
-    /// The coordinate of a stop, how far beyond it is [m or rad], and the length or angle that is small to the stop. Default: it is
-    /// no stop, or not touched.
-    fn beyond_stop(&self, _at: &Kinematics) -> Option<(CoordinateId, [f64; 2])> {
-        None
-    }
-
-    /// How much longer a rope is than the way along its points, and its length [m]. Default: it is no rope.
-    fn slack(&self, _at: &Kinematics) -> Option<[f64; 2]> {
-        None
-    }
-
-    /// Whether it is a tyre. Default: it is none.
-    fn has_slip(&self) -> bool {
-        false
-    }
-
-    /// Slip, slip angle [rad], longitudinal, lateral and normal force [N] and aligning moment [N m] of a tyre. Default: it is none.
-    fn slip(&self, _at: &Kinematics) -> [f64; 6] {
-        [f64::NAN; 6]
-    }
-
-    /// Normal force of a tyre [N] with the largest one of its data, and the deviation of the road from a plane within its contact [m] with the
-    /// largest one that its model resolves. Default: it is no tyre.
-    fn tyre_limits(&self, _at: &Kinematics) -> [[f64; 2]; 2] {
-        [[0.0, f64::INFINITY]; 2]
-    }
-
-    /// Derivatives of these numbers with respect to its local unknowns. Default: it is no tyre.
-    fn slip_gradients(&self, _at: &Kinematics) -> [Gradient; 6] {
-        [Gradient::zero(); 6]
-    }
-
-    /// Whether it is a rope over sheaves or drums with a radius. Default: it is none.
-    fn has_sheaves(&self) -> bool {
-        false
-    }
-
-    /// Position of the first point, if it carries a force, at which a rope no longer lies on its sheave or drum, and how. Default: it has no
-    /// sheaves.
-    fn off_sheave(&self, _at: &Kinematics) -> Option<(usize, String)> {
-        None
-    }
-
-    /// Two nodes and the vector between the ends, if the force would have a direction at zero length, where that reverses.
-    /// Default: it has none.
-    fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
-        None
-    }
-
-    /// Name of the contact and penetrations of two sides of a surface, of which its force resists the nearest one only. Default: it
-    /// touches no second side.
-    fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {
-        None
-    }
 }
 
 /// Friction by a bristle, a first-order state that reaches its steady deflection along a path of a few deflections at slip.
@@ -230,12 +166,6 @@ pub trait Deformable: Element {
     /// Two nodes with the largest relative rotation, and the cosine of half its angle: it cannot distinguish a rotation from the
     /// opposite one.
     fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
-
-    /// Used fraction of the range in which its linear law is valid, for elements that are linear in a frame of their own.
-    /// Default: none.
-    fn linear_range(&self, _limit: LinearLimit, _at: &Kinematics) -> Option<LinearRange> {
-        None
-    }
 }
 
 /// Elements with inertia besides that of bodies.
@@ -252,33 +182,4 @@ pub trait OwnInertia: Element {
     fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
         Vector3::zeros()
     }
-}
-
-/// Used fraction of the range in which a linear law is valid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearRange {
-    /// Fraction of the valid range: above 1 the law is inaccurate.
-    pub part: f64,
-    /// The node with the largest deformation or rotation.
-    pub node: NodeId,
-}
-
-/// Limits of a linear law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LinearLimit {
-    /// Deformations.
-    Deformation,
-    /// The rate of rotation.
-    Spin,
-    /// The relative change of stiffness by axial forces and rotation.
-    Load,
-    /// Coupling of bending and torsion by moments.
-    Moment,
-    /// Forces of modes that are omitted, under sudden loads.
-    LeftOut,
-}
-
-impl LinearLimit {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment, Self::LeftOut];
 }

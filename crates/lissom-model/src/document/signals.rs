@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::signals::MAX_ARGUMENTS;
 
 use super::entries::each;
@@ -59,8 +60,8 @@ pub struct StateEntry {
     pub name: Located<String>,
     /// Derivative of the state by time, or what its value makes zero.
     pub derivative: Located<Formula>,
-    /// Whether it is the pressure of a fluid that cannot be pulled.
-    pub is_limited: bool,
+    /// Whose value is not valid below zero, if that is so.
+    pub positive_of: Option<Subject>,
     /// Whether the state is algebraic: its value makes the expression zero.
     pub is_balance: bool,
     /// Value at the start.
@@ -229,7 +230,7 @@ pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {
         Some(StateEntry {
             name: Located::new(name.to_owned(), reader.name),
             derivative: reader.formula("derivative")?,
-            is_limited: false,
+            positive_of: None,
             is_balance: reader.flag("algebraic")?.value,
             start: reader.number("start")?.value,
             magnitude: reader.number("magnitude")?.value,

@@ -187,7 +187,9 @@ pub(super) fn bind(
                 [element] => Some((element, output.kind.components())),
                 _ => None,
             }),
-            Of::Slip | Of::Wrench(_) => spring.map(|&(element, _)| (element, output.kind.components())),
+            Of::Reported(_) | Of::Wrench(_) => {
+                spring.map(|&(element, _)| (element, output.kind.components()))
+            }
         };
         // An element that could not be added, and a spring without elongation, have their own problems.
         let Some((element, components)) = element else { continue };

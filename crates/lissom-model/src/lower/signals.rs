@@ -58,9 +58,8 @@ pub(super) fn add(
             (builder.add_state(name, start, magnitude), Of::Value)
         };
         let measured = builder.add_measurement(Coordinate::new(coordinate, of));
-        if state.is_limited {
-            let node = state.name.value.trim_end_matches(".pressure");
-            builder.limit_pressure(Subject::new("node", node), measured, 0.0);
+        if let Some(subject) = &state.positive_of {
+            builder.limit_below(subject.clone(), measured, 0.0);
         }
         names.signals.insert(state.name.value.clone(), Argument::Measured(measured));
         states.push(coordinate);

@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
+use lissom_mechanics::elements::tyre::REPORTED;
 use lissom_mechanics::signals::measurement::Measurement;
 use lissom_system::System;
 use lissom_system::element_quantity::Of;
@@ -19,15 +20,8 @@ pub(crate) const TYRE: Declaration = Declaration {
     summary: "Slip, slip angle and forces of a tyre in axes of its contact, and its aligning moment; all zero in the air.",
     subject: Subject::Spring,
     features: &[Feature::InternalForces],
-    components: &[
-        ("slip", ""),
-        ("slip_angle", "rad"),
-        ("longitudinal", "N"),
-        ("lateral", "N"),
-        ("normal", "N"),
-        ("aligning", "N m"),
-    ],
-    build: Build::Element(|_| Of::Slip, quantity),
+    components: REPORTED,
+    build: Build::Element(|_| Of::Reported(REPORTED), quantity),
 };
 
 /// Slip and forces of an element.
@@ -36,7 +30,7 @@ struct Slip(Arc<dyn Measurement>);
 fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found {
     let name = name_of(output)?;
     let known = subjects.names.springs.get(&name.value);
-    let measured = known.and_then(|(element, _)| system.element_quantity(*element, Of::Slip));
+    let measured = known.and_then(|(element, _)| system.element_quantity(*element, Of::Reported(REPORTED)));
     let measured = measured.ok_or_else(|| {
         Problem::error(name.span, format!("spring `{}` is no tyre", name.value))
             .help("name a spring of kind `tyre`, or use `kind = \"spring\"`")

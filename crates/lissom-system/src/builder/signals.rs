@@ -7,7 +7,7 @@ use lissom_motion::Motion;
 use super::Builder;
 use crate::ElementId;
 use crate::element_quantity::{ElementQuantity, Of};
-use crate::feedback::{LimitedPressure, Target};
+use crate::feedback::{LeastValue, Target};
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::elements::initial_model::Coordinate;
 use lissom_mechanics::kinematics::{
@@ -69,9 +69,9 @@ impl Builder {
         state
     }
 
-    /// Adds a pressure whose limit monitors check.
-    pub fn limit_pressure(&mut self, node: Subject, pressure: MeasurementId, limit: f64) {
-        self.pressures.push(LimitedPressure { node, pressure, limit });
+    /// Adds a lower limit that monitors check.
+    pub fn limit_below(&mut self, of: Subject, value: MeasurementId, least: f64) {
+        self.least_values.push(LeastValue { of, value, least });
     }
 
     /// Makes a signal zero by the value of an unknown, on which it depends.

@@ -1,6 +1,7 @@
 //! Every registered spring: its forces at rest are the gradient of its energy, and the motion that it reports belongs to them. What
 //! springs and loads report has exact gradients.
 
+use lissom_mechanics::elements::tyre::REPORTED;
 use lissom_mechanics::elements::{ElementKind, LOADS, SPRINGS};
 use lissom_mechanics::evaluation::wrench::WrenchAxes;
 use lissom_mechanics::kinematics::{Kinematics, LOCKED, Quantity};
@@ -168,11 +169,11 @@ fn gradients_of_what_elements_report_are_those_of_differences() {
         let here = Configuration::random(&system, &state, 0.3, &mut random);
         let Some(element) = element else { continue };
         let wrenches = [WrenchAxes::Ground, WrenchAxes::Base, WrenchAxes::Tip].map(Of::Wrench);
-        for of in [Of::Spring, Of::Slip, Of::Power].into_iter().chain(wrenches) {
+        for of in [Of::Spring, Of::Reported(REPORTED), Of::Power].into_iter().chain(wrenches) {
             let Some(quantity) = system.element_quantity(element, of) else {
                 let is_absent = match of {
                     Of::Spring => system.spring_motion(element, &here.at).is_none(),
-                    Of::Slip => kind.name != "tyre",
+                    Of::Reported(_) => kind.name != "tyre",
                     Of::Power => false,
                     Of::Wrench(_) => !BETWEEN_FRAMES.contains(&kind.name),
                 };

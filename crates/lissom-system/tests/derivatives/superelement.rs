@@ -5,7 +5,7 @@ use lissom_flexible::superelement::{
     SuperelementDescription, TurningMatrices, superelement,
 };
 use lissom_mechanics::elements::inertia::Gravity;
-use lissom_mechanics::elements::{Deformable, LinearLimit};
+use lissom_mechanics::elements::{Deformable, LimitKind, Place, Validity};
 use lissom_mechanics::kinematics::{Freedoms, NodeId};
 use lissom_motion::{Motion, Vector3};
 use lissom_system::{Builder, State, System};
@@ -227,18 +227,20 @@ fn rates_of_deformation_are_those_of_the_fastest_interface() {
 fn the_linear_range_is_that_of_the_interface_that_deforms_most() {
     let (element, state) = three_interfaces();
     let at = state.kinematics;
-    let used = |at: &_| element.linear_range(LinearLimit::Deformation, at).expect("it is linear");
-    assert!(used(&at).part < 1e-13);
+    let used = |at: &_| {
+        let own = element.limit(LimitKind::Deformation, [at; 2]).expect("it is linear");
+        let Place::Node(node) = own.place else { panic!("it is at an interface") };
+        [own.value / own.limit, node.index() as f64]
+    };
+    assert!(used(&at)[0] < 1e-13);
     let mut moved = at.clone();
     moved.nodes[1].frame = moved.nodes[1].frame * Motion::translation(Vector3::new(0.0, -0.6, 0.8));
-    assert!(
-        (used(&moved).part - 1.0 / 0.75).abs() < 1e-13 && used(&moved).node.index() == 1,
-        "{:?}",
-        used(&moved)
-    );
+    let [part, node] = used(&moved);
+    assert!((part - 1.0 / 0.75).abs() < 1e-13 && node == 1.0, "{part} at {node}");
     let turn = Motion::exponential(&lissom_motion::screw(&Vector3::zeros(), &Vector3::new(0.0, 0.0, -0.32)));
     moved.nodes[3].frame = moved.nodes[3].frame * turn;
-    assert!((used(&moved).part - 1.6).abs() < 1e-13 && used(&moved).node.index() == 3, "{:?}", used(&moved));
+    let [part, node] = used(&moved);
+    assert!((part - 1.6).abs() < 1e-13 && node == 3.0, "{part} at {node}");
     let (cosine, pair) = element.max_relative_rotation(&moved).expect("it turns");
     assert!(
         (cosine.abs() - 0.16_f64.cos()).abs() < 1e-14 && pair == [2, 3].map(NodeId::new),

@@ -34,7 +34,10 @@ use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::rolling_contact::on_plane;
-use super::{Capabilities, Element, ForceLaws, Load, Spring, Tangents, Unknowns, add_block};
+use super::{
+    Capabilities, Element, ForceLaws, Limit, LimitKind, Load, Report, Spring, Tangents, Unknowns, Validity,
+    add_block,
+};
 use crate::dual::{Dual, Number, cross, dot, sum, times};
 use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
@@ -52,6 +55,16 @@ use crate::wheels::wheel_on_rail::Pose;
 type Varied = Dual<14>;
 /// Key in the coefficients of a file: 1 for a tyre that was measured on the left, -1 on the right.
 pub const SIDE: &str = "TYRESIDE";
+
+/// What a tyre reports: its slip and the forces of the tread in axes of the contact.
+pub const REPORTED: &[(&str, &str)] = &[
+    ("slip", ""),
+    ("slip_angle", "rad"),
+    ("longitudinal", "N"),
+    ("lateral", "N"),
+    ("normal", "N"),
+    ("aligning", "N m"),
+];
 
 /// Parameters that are not data of a brush.
 const OF_BOTH: [&str; 9] = [
@@ -473,6 +486,8 @@ impl Element for Tyre {
         Capabilities {
             load: Some(self),
             spring: Some(self),
+            report: Some(self),
+            validity: Some(self),
             laws: Some(self),
             frames: Some(self.frames.frames),
             ..Capabilities::default()
@@ -507,37 +522,49 @@ impl Spring for Tyre {
         [-depth, -rate, force]
     }
 
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+    fn spring_gradients(&self, at: &Kinematics) -> Option<[Gradient; 3]> {
         let (motion, touch) = self.varied(at);
         let columns = self.frames.columns(&motion);
         let [depth, rate, force] = touch.normal;
-        [-depth, -rate, force].map(|value| gradient(&value, &motion, &columns))
+        Some([-depth, -rate, force].map(|value| gradient(&value, &motion, &columns)))
+    }
+}
+
+impl Report for Tyre {
+    fn words(&self) -> &'static [(&'static str, &'static str)] {
+        REPORTED
     }
 
-    fn has_slip(&self) -> bool {
-        true
-    }
-
-    fn slip(&self, at: &Kinematics) -> [f64; 6] {
+    fn numbers(&self, at: &Kinematics) -> [f64; 6] {
         self.value(at).1.slip
     }
 
-    fn tyre_limits(&self, at: &Kinematics) -> [[f64; 2]; 2] {
-        let largest = match &self.law {
-            Law::MagicFormula(law) => law.largest_load(),
-            Law::Brush(_) => f64::INFINITY,
-        };
-        let (motion, touch) = self.value(at);
-        let load = touch.normal[2];
-        let pose = Pose::new(&motion.rotation, &motion.position);
-        let bumps = self.ground.under(&pose, (motion.rotation * self.axis).into()).bumps;
-        [[load, largest], [if load > 0.0 { bumps } else { 0.0 }, 0.03 * self.radius]]
-    }
-
-    fn slip_gradients(&self, at: &Kinematics) -> [Gradient; 6] {
+    fn gradients(&self, at: &Kinematics) -> [Gradient; 6] {
         let (motion, touch) = self.varied(at);
         let columns = self.frames.columns(&motion);
         touch.slip.map(|value| gradient(&value, &motion, &columns))
+    }
+}
+
+impl Validity for Tyre {
+    fn limits(&self) -> &'static [LimitKind] {
+        &[LimitKind::TyreLoad, LimitKind::TyreRoad]
+    }
+
+    fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
+        let (motion, touch) = self.value(at);
+        let load = touch.normal[2];
+        match (kind, &self.law) {
+            (LimitKind::TyreLoad, Law::MagicFormula(law)) => {
+                Some(Limit::of_element(load, law.largest_load()))
+            }
+            (LimitKind::TyreRoad, _) if load > 0.0 => {
+                let pose = Pose::new(&motion.rotation, &motion.position);
+                let bumps = self.ground.under(&pose, (motion.rotation * self.axis).into()).bumps;
+                Some(Limit::of_element(bumps, 0.03 * self.radius))
+            }
+            _ => None,
+        }
     }
 }
 

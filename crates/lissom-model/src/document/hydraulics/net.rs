@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::registry::{Parameters, Value as Held};
 
 use super::fluid::{self, ATMOSPHERE, Fluid, fluids};
@@ -214,17 +215,19 @@ impl<'c, 'a> Net<'c, 'a> {
         Some(())
     }
 
-    /// Adds a state of a part; `is_limited` if it is a pressure of a fluid without air.
+    /// Adds a state of a part; `is_positive` if it is a pressure of a fluid without air.
     pub(super) fn state(
         &mut self,
         part: &Part<'_, '_, '_>,
-        (word, magnitude, start, is_limited): (&str, f64, f64, bool),
+        (word, magnitude, start, is_positive): (&str, f64, f64, bool),
         (template, terms): (&str, &[(&str, Term)]),
     ) -> Option<()> {
         let span = part.reader.name;
         let derivative = Located::new(formula(template, terms)?, span);
-        let name = Located::new(part.component(word), span);
-        self.states.push(StateEntry { name, derivative, is_limited, is_balance: false, start, magnitude });
+        let name = part.component(word);
+        let positive_of = is_positive.then(|| Subject::new("node", &name));
+        let name = Located::new(name, span);
+        self.states.push(StateEntry { name, derivative, positive_of, is_balance: false, start, magnitude });
         Some(())
     }
 
@@ -336,10 +339,12 @@ impl<'c, 'a> Net<'c, 'a> {
         self.add_signal(whole("power"), span, ("p*q", &terms))?;
         let stores =
             |own: &[(String, String)]| own.iter().find(|(own, _)| own == name).map(|own| own.1.clone());
+        // A fluid without air is torn apart.
+        let pulled = |fluid: &Fluid| (!fluid.has_air()).then(|| Subject::new("node", name));
         match node.kind {
             NodeKind::Volume { volume, start } => {
                 let fluid = fluid::of(self.context, &self.fluids, name)?;
-                let is_limited = !fluid.has_air();
+                let positive_of = pulled(&fluid);
                 let (compressibility, fluid) = fluid.compressibility();
                 let mut terms: Vec<(String, Term)> = terms.map(|(own, term)| (own.to_owned(), term)).into();
                 terms.extend(fluid.into_iter().map(|(own, term)| (own.to_owned(), term)));
@@ -360,20 +365,20 @@ impl<'c, 'a> Net<'c, 'a> {
                 self.states.push(StateEntry {
                     name,
                     derivative,
-                    is_limited,
+                    positive_of,
                     is_balance: false,
                     start,
                     magnitude,
                 });
             }
             NodeKind::Junction { start } => {
-                let is_limited = !fluid::of(self.context, &self.fluids, name)?.has_air();
+                let positive_of = pulled(&fluid::of(self.context, &self.fluids, name)?);
                 let derivative = Located::new(formula("q", &terms)?, span);
                 let (name, magnitude) = (Located::new(pressure, span), ATMOSPHERE);
                 self.states.push(StateEntry {
                     name,
                     derivative,
-                    is_limited,
+                    positive_of,
                     is_balance: true,
                     start,
                     magnitude,
