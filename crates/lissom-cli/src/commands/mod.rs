@@ -11,6 +11,7 @@ mod initial_scene;
 mod kinds;
 mod live;
 #[cfg(test)]
+#[path = "../../tests/unit/commands/manual.rs"]
 mod manual;
 mod model_arguments;
 mod new;

@@ -12,6 +12,7 @@ mod differences;
 pub(crate) mod energy;
 pub(crate) mod entry;
 #[cfg(test)]
+#[path = "../../tests/unit/outputs/every_kind.rs"]
 mod every_kind;
 pub(crate) mod expression;
 pub(crate) mod frames;

@@ -17,7 +17,7 @@ use crate::outputs::channels::{Channel, signal_value};
 use crate::outputs::kinds::{Feature, Feeds, OutputKind};
 use crate::{Library, ModelText, Report};
 
-const MODEL: &str = include_str!("../../tests/every_output.toml");
+const MODEL: &str = include_str!("../../every_output.toml");
 const MASS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 8\n1 1 1\n2 2 1\n3 3 1\n4 4 0.1\n5 5 0.2\n6 6 0.25\n\
                     7 7 0.5\n7 1 0.1\n";
 const STIFFNESS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 1\n7 7 100\n";
@@ -153,7 +153,7 @@ fn powers_of_drives_and_scaled_loads_are_available_at_samples_alone() {
 
 #[test]
 fn the_manual_states_when_kinds_feed_signals() {
-    const MANUAL: &str = include_str!("../../../../docs/signals.md");
+    const MANUAL: &str = include_str!("../../../../../docs/signals.md");
     for kind in OutputKind::all() {
         let when = match kind.feeds() {
             Feeds::Signals => "at all times".to_owned(),
