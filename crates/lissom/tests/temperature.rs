@@ -177,6 +177,25 @@ fn distorted_shells_and_solids_expand_without_stress() {
     }
 }
 
+/// Beams, shells and solids are longer by α ΔT, also where its square counts.
+#[test]
+fn beams_shells_and_solids_expand_alike() {
+    let heat = "temperature = 4000\n";
+    let shell = format!(
+        "{STEEL}[shells.part]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 0.5, 0], [0, 0.5, 0]]\ndivisions = [2, 1]\nthickness = 0.01\n\
+         material = \"steel\"\n{heat}"
+    ) + &held("0,0", "1,0", "0,1");
+    let solid = format!(
+        "{STEEL}[solids.part]\nvolume = [\"u\", \"0.5*v\", \"0.2*w\"]\ndivisions = [2, 1, 1]\nmaterial = \"steel\"\n{heat}"
+    ) + &held("0,0,0", "1,0,0", "0,1,0");
+    let rod = beam(heat) + &clamp("root", "rod.start");
+    for (part, end) in [(rod, "rod.end"), (shell, "part@1,0"), (solid, "part@1,0,0")] {
+        let record = run(&(part + &output("end", "displacement", end) + STATICS), &[]);
+        let longer = last(&record, "end", "u1");
+        assert!((longer / (4000.0 * 12e-6) - 1.0).abs() < 1e-8, "{end}: {longer}");
+    }
+}
+
 /// A bar whose temperature grows across it bends to the curvature α dT/dz without stress, between supports with it.
 #[test]
 fn a_solid_with_a_gradient_bends() {

@@ -79,7 +79,8 @@ impl Shell {
         let ply = |layer: &Layer| {
             let initial = self.prestress.map(|force| force / whole);
             let ply = Ply { thickness: layer.thickness_at(middle), initial, ..layer.ply };
-            ply.expanded(layer.expansion.map(|expansion| expansion * temperature))
+            // The strain of Green of a stretch 1 + α ΔT, as solids and beams have.
+            ply.expanded(layer.expansion.map(|own| own * temperature * (1.0 + 0.5 * own * temperature)))
         };
         self.layers.iter().map(ply).collect()
     }
