@@ -367,17 +367,9 @@ impl ConsistentInitialConditions {
             *value -= rate;
         }
         self.solve(system, &mut right);
-        let mut largest = 0.0_f64;
-        for (rows, node) in layout.node_rows.iter().zip(&mut state.kinematics.nodes) {
-            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-                node.twist[k] += right[row as usize];
-                largest = largest.max(right[row as usize].abs());
-            }
-        }
-        for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
-            coordinate.rate += right[row as usize];
-        }
-        largest
+        add_rates(layout, (1.0, &right), &mut state.kinematics);
+        let of_nodes = layout.node_rows.iter().flatten().filter(|&&row| row != LOCKED);
+        of_nodes.fold(0.0, |largest, &row| largest.max(right[row as usize].abs()))
     }
 
     /// Rates of the constraints at the velocities of `state`, by multiplier, with the last linearisation.
@@ -693,35 +685,41 @@ fn gather(
     }
 }
 
-/// Sets twists and rates.
-pub(crate) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+/// Calls `visit` with the row of each velocity, the velocity and its acceleration.
+pub(crate) fn visit_rates(
+    layout: &Layout,
+    at: &mut Kinematics,
+    mut visit: impl FnMut(usize, &mut f64, &mut f64),
+) {
     for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
         for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-            node.twist[k] = values[row as usize];
+            visit(row as usize, &mut node.twist[k], &mut node.acceleration[k]);
         }
     }
     for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
-        coordinate.rate = values[row as usize];
+        visit(row as usize, &mut coordinate.rate, &mut coordinate.acceleration);
     }
+}
+
+/// Sets twists and rates.
+pub(crate) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+    visit_rates(layout, at, |row, rate, _| *rate = values[row]);
+}
+
+/// Adds a factor times changes of twists and rates.
+pub(crate) fn add_rates(layout: &Layout, (factor, changes): (f64, &[f64]), at: &mut Kinematics) {
+    visit_rates(layout, at, |row, rate, _| *rate += factor * changes[row]);
 }
 
 /// Sets the rates of some rows.
 fn restore(layout: &Layout, (is_given, rates): (&[bool], &[f64]), at: &mut Kinematics) {
-    let mut all = vec![0.0; layout.size()];
-    gather_rates(layout, at, &mut all);
-    for (row, rate) in rates.iter().enumerate().filter(|(row, _)| is_given.get(*row) == Some(&true)) {
-        all[row] = *rate;
-    }
-    scatter_rates(layout, &all, at);
+    visit_rates(layout, at, |row, rate, _| {
+        if is_given.get(row) == Some(&true) {
+            *rate = rates[row];
+        }
+    });
 }
 
 pub(crate) fn scatter_accelerations(layout: &Layout, values: &[f64], at: &mut Kinematics) {
-    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-            node.acceleration[k] = values[row as usize];
-        }
-    }
-    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
-        coordinate.acceleration = values[row as usize];
-    }
+    visit_rates(layout, at, |row, _, acceleration| *acceleration = values[row]);
 }

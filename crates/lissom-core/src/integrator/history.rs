@@ -14,9 +14,10 @@
 
 use lissom_solver::SolverKind;
 
-use crate::consistent::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::initial_conditions::{
+    ConsistentInitialConditions, add_rates, gather_accelerations, gather_rates, visit_rates,
+};
 use crate::errors::InitialError;
-use crate::kinematics::LOCKED;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
@@ -105,7 +106,7 @@ impl IntegratorHistory {
             }
         }
         let square = if is_known { ratio * ratio } else { 0.0 };
-        add_velocities(system, square - 1.0, &self.across, out);
+        add_rates(system.layout(), (square - 1.0, &self.across), &mut out.kinematics);
         Ok(())
     }
 
@@ -126,14 +127,8 @@ impl IntegratorHistory {
         } else if delay != 0.0 {
             // At the start the algorithmic acceleration is that shortly after it.
             self.slope.copy_from_slice(&state.algorithmic);
-            for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
-                for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-                    self.slope[row as usize] -= node.acceleration[k];
-                }
-            }
-            for (&row, own) in layout.coordinate_rows.iter().zip(&state.kinematics.coordinates) {
-                self.slope[row as usize] -= own.acceleration;
-            }
+            gather_accelerations(layout, &state.kinematics, &mut self.across);
+            self.slope.iter_mut().zip(&self.across).for_each(|(slope, acceleration)| *slope -= acceleration);
             self.slope.iter_mut().for_each(|value| *value /= delay * self.step);
         }
         self.across.fill(0.0);
@@ -142,29 +137,8 @@ impl IntegratorHistory {
         }
         scratch.clone_from(state);
         self.initial.velocities(system, scratch)?;
-        for ((rows, own), projected) in
-            layout.node_rows.iter().zip(&state.kinematics.nodes).zip(&scratch.kinematics.nodes)
-        {
-            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-                self.across[row as usize] = own.twist[k] - projected.twist[k];
-            }
-        }
-        let coordinates = state.kinematics.coordinates.iter().zip(&scratch.kinematics.coordinates);
-        for (&row, (own, projected)) in layout.coordinate_rows.iter().zip(coordinates) {
-            self.across[row as usize] = own.rate - projected.rate;
-        }
+        gather_rates(layout, &state.kinematics, &mut self.across);
+        visit_rates(layout, &mut scratch.kinematics, |row, projected, _| self.across[row] -= *projected);
         Ok(())
-    }
-}
-
-fn add_velocities(system: &System, share: f64, velocities: &[f64], state: &mut State) {
-    let layout = system.layout();
-    for (rows, node) in layout.node_rows.iter().zip(&mut state.kinematics.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-            node.twist[k] += share * velocities[row as usize];
-        }
-    }
-    for (&row, own) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
-        own.rate += share * velocities[row as usize];
     }
 }

@@ -22,6 +22,7 @@ pub(crate) use history::IntegratorHistory;
 
 use lissom_solver::{FactorError, SolverKind};
 
+use crate::consistent::initial_conditions::visit_rates;
 use crate::consistent::redundancy::Redundancy;
 use crate::errors::StepError;
 use crate::errors::step_error::describe;
@@ -29,7 +30,7 @@ use crate::integrator::dense::{DenseOutput, SolvedStages};
 use crate::integrator::equations::StepEquations;
 use crate::integrator::projection::Projection;
 use crate::integrator::workspace::Workspace;
-use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
+use crate::kinematics::{Kinematics, Layout, MotionChange};
 use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
 use crate::round_off;
 use crate::saddle_point::TangentValues;
@@ -375,16 +376,10 @@ fn describe_failure(
 
 /// Adds changes of velocities and impulses of constraints, by row, that impacts cause in a step of `size` [s].
 fn add_impacts(layout: &Layout, (change, size): (&[f64], f64), end: &mut State) {
-    for (rows, node) in layout.node_rows.iter().zip(&mut end.kinematics.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|(_, row)| **row != LOCKED) {
-            node.twist[k] += change[row as usize];
-            node.acceleration[k] += change[row as usize] / size;
-        }
-    }
-    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut end.kinematics.coordinates) {
-        coordinate.rate += change[row as usize];
-        coordinate.acceleration += change[row as usize] / size;
-    }
+    visit_rates(layout, &mut end.kinematics, |row, rate, acceleration| {
+        *rate += change[row];
+        *acceleration += change[row] / size;
+    });
     for (multiplier, impulse) in end.multipliers.iter_mut().zip(&change[layout.coordinate_count()..]) {
         *multiplier += impulse / size;
     }

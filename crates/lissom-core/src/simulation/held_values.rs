@@ -3,11 +3,11 @@
 //! Forces jump with them, and accelerations by M⁻¹ ΔF. The accelerations in a scheme's history jump as well. Otherwise the scheme would
 //! include the change late by a fraction of a step: an error of first order in every velocity.
 
-use crate::consistent::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::initial_conditions::{ConsistentInitialConditions, visit_rates};
 use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::joints::latch::{Latch, holds};
-use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
+use crate::kinematics::{DiscreteValueId, Kinematics, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
 use crate::simulation::Simulation;
@@ -236,21 +236,14 @@ impl Simulation {
     pub(super) fn add_jump(&mut self, mut jump: Vec<f64>) {
         self.stops.history.add_break(Break::Slope);
         let layout = self.system.layout();
-        let kinematics = &mut self.state.kinematics;
-        for (rows, node) in layout.node_rows.iter().zip(&mut kinematics.nodes) {
-            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-                node.acceleration[k] += jump[row as usize];
-            }
-        }
-        for (&row, own) in layout.coordinate_rows.iter().zip(&mut kinematics.coordinates) {
-            let jump = &mut jump[row as usize];
-            if layout.quantities[row as usize] == Quantity::State {
+        visit_rates(layout, &mut self.state.kinematics, |row, rate, acceleration| {
+            if layout.quantities[row] == Quantity::State {
                 // The entry of a first-order state is the change of its rate.
-                own.rate += std::mem::take(jump);
+                *rate += std::mem::take(&mut jump[row]);
             } else {
-                own.acceleration += *jump;
+                *acceleration += jump[row];
             }
-        }
+        });
         let (motion, constraints) = jump.split_at(layout.coordinate_count());
         // The previous state as well: the difference of the two is the change of accelerations between jumps.
         for memory in [&mut self.previous.algorithmic, &mut self.state.algorithmic] {

@@ -22,7 +22,9 @@
 mod matrix;
 mod stiff_parts;
 
-use crate::consistent::initial_conditions::{gather_accelerations, gather_rates, scatter_accelerations};
+use crate::consistent::initial_conditions::{
+    add_rates, gather_accelerations, gather_rates, scatter_accelerations,
+};
 use crate::integrator::pivoting_unless_augmented;
 use crate::kinematics::{Kinematics, LOCKED, Layout, Switch};
 use crate::round_off;
@@ -216,7 +218,7 @@ impl Recovery {
         let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
         work.right.clone_from(&work.lacking);
         matrix.solve(&mut work.right);
-        add_rates(system.layout(), &work.right, &mut rates.kinematics);
+        add_rates(system.layout(), (1.0, &work.right), &mut rates.kinematics);
         work.right.iter().all(|value| value.is_finite()).then_some(())
     }
 
@@ -247,7 +249,7 @@ impl Recovery {
             matrix.solve(&mut work.right);
             std::mem::swap(&mut work.stiff, &mut work.right);
         }
-        add_rates(system.layout(), &work.stiff, &mut forces.kinematics);
+        add_rates(system.layout(), (1.0, &work.stiff), &mut forces.kinematics);
     }
 
     /// Computes accelerations and multipliers.
@@ -442,18 +444,6 @@ fn hold_sides(system: &System, switches: &mut Vec<Switch>, at: &mut Kinematics) 
     system.switches(at, switches);
     for (held, switch) in at.held[first..].iter_mut().zip(&*switches).filter(|(held, _)| **held == 0.0) {
         *held = switch.side();
-    }
-}
-
-/// Adds changes to the velocities.
-fn add_rates(layout: &Layout, changes: &[f64], at: &mut Kinematics) {
-    for (coordinate, &row) in at.coordinates.iter_mut().zip(&layout.coordinate_rows) {
-        coordinate.rate += changes[row as usize];
-    }
-    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-            node.twist[k] += changes[row as usize];
-        }
     }
 }
 
