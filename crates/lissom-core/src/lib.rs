@@ -23,6 +23,7 @@ pub mod diagnostics;
 pub mod differentiation;
 mod energy_balance;
 pub mod errors;
+mod impacts;
 pub(crate) mod integrator;
 mod iterate;
 pub(crate) mod judge;

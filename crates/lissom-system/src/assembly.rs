@@ -29,6 +29,13 @@ impl System {
 
     /// The equations of motion linearised about a state: without increments of a step, multipliers or an augmented term.
     pub fn linearization_at(&self, at: &Kinematics) -> Linearization {
+        let mut linearization = self.empty_linearization();
+        self.linearize_at(at, Augmentation::none(), &mut linearization);
+        linearization
+    }
+
+    /// The equations of motion linearised about a state: without increments of a step or multipliers.
+    pub fn linearize_at(&self, at: &Kinematics, augmentation: Augmentation, out: &mut Linearization) {
         let still = vec![MotionChange::none(); at.nodes.len()];
         let unchanged = vec![0.0; at.coordinates.len()];
         let zero = vec![0.0; self.layout.multiplier_count];
@@ -38,11 +45,9 @@ impl System {
             increments: Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None },
             multipliers: &zero,
             violations: &zero,
-            augmentation: Augmentation::none(),
+            augmentation,
         };
-        let mut linearization = self.empty_linearization();
-        self.linearize(&point, Chart::Body, &mut linearization);
-        linearization
+        self.linearize(&point, Chart::Body, out);
     }
 
     /// Residual at `point`: left-hand sides of the equations of motion in the rows of the coordinates, violations in

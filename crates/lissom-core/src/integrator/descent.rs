@@ -1,9 +1,9 @@
 //! The corrections of a step with touches, see `contacts`.
 
-use lissom_motion::{Matrix3, Vector3, Vector6};
+use lissom_motion::Vector6;
 use lissom_solver::{FactorError, KINDS, SYMMETRIC};
 
-use super::contacts::StepContacts;
+use super::contacts::{CoupledPattern, StepContacts, TouchPoint, TouchState, share_of_correction};
 use super::equations::StepEquations;
 use crate::kinematics::{LOCKED, NodeId, Quantity};
 use crate::newton::Descent;
@@ -109,7 +109,6 @@ impl StepEquations<'_> {
     /// Factors the tangent at the iterate, with that of elements and joints if it is to be renewed.
     fn factor(&mut self, contacts: &mut StepContacts, is_renewed: bool) -> Result<(), FactorError> {
         let layout = self.system.layout();
-        self.work.newton.effort.factorizations += 1;
         if is_renewed {
             self.watch.begin(Phase::Linearisation);
             self.linearize_without_touches(contacts);
@@ -119,20 +118,33 @@ impl StepEquations<'_> {
         if contacts.pattern.follow((layout, is_first), points, (points, &contacts.states)) {
             self.take_pattern(contacts);
         }
-        let TangentValues::Real(mut values) = self.work.tangent.matrices.take_values(0) else {
-            unreachable!("the scheme has one stage")
-        };
         let TangentValues::Real(smooth) = &contacts.smooth.values else {
             unreachable!("the scheme has one stage")
         };
         let touches = (&contacts.near.points[..], &contacts.states[..], self.scaled.dynamic_factor());
-        contacts.pattern.assemble(smooth, touches, (&self.work.motions[0].at, layout), &mut values);
-        self.work.tangent.matrices.set_values(0, TangentValues::Real(values));
         self.watch.begin(Phase::Factorisation);
-        self.work.tangent.renew(&contacts.pattern.structure, self.scaled.scale())?;
+        self.factor_with(&contacts.pattern, smooth, touches)?;
         self.note_scales();
         contacts.slopes.clear();
         contacts.slopes.extend(contacts.states.iter().map(|state| state.slope));
+        Ok(())
+    }
+
+    /// Factors the tangent with these values on the system's own pattern, and a factor times the blocks of touches.
+    pub(super) fn factor_with(
+        &mut self,
+        pattern: &CoupledPattern,
+        smooth: &[f64],
+        touches: (&[TouchPoint], &[TouchState], f64),
+    ) -> Result<(), FactorError> {
+        self.work.newton.effort.factorizations += 1;
+        let TangentValues::Real(mut values) = self.work.tangent.matrices.take_values(0) else {
+            unreachable!("the scheme has one stage")
+        };
+        let at = (&self.work.motions[0].at, self.system.layout());
+        pattern.assemble(smooth, touches, at, &mut values);
+        self.work.tangent.matrices.set_values(0, TangentValues::Real(values));
+        self.work.tangent.renew(&pattern.structure, self.scaled.scale())?;
         Ok(())
     }
 
@@ -175,9 +187,8 @@ impl StepEquations<'_> {
         };
         contacts.changes.clear();
         contacts.changes.extend(contacts.near.points.iter().map(|point| point.change(at, increment)));
-        let steepening = |(slope, change): (&Matrix3, &Vector3)| change.dot(&(slope * change));
-        let touches: f64 = contacts.slopes.iter().zip(&contacts.changes).map(steepening).sum();
-        let rise = (-slope - touches).max(0.0);
-        contacts.search(slope, rise)
+        let force = |k: usize, displacement| contacts.near.points[k].force(&displacement);
+        let touches = (&contacts.states[..], contacts.slopes.iter(), &contacts.changes[..]);
+        share_of_correction(slope, touches, force)
     }
 }

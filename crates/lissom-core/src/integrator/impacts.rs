@@ -3,12 +3,13 @@
 use lissom_motion::Vector3;
 
 use super::contacts::impact::{Impacts, of_node};
-use super::contacts::{FOLLOWING, StepContacts, TouchPoint, TouchState, minimum_along};
+use super::contacts::{FOLLOWING, StepContacts, TouchPoint, TouchState, share_of_correction};
 use super::equations::StepEquations;
-use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
-use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, Quantity, split};
+use crate::consistent::initial_conditions::gather_rates;
+use crate::impacts::Rebounds;
+use crate::joints::evaluation_point::Augmentation;
+use crate::kinematics::{Kinematics, LOCKED, Layout, Quantity, split};
 use crate::newton::Failure;
-use crate::saddle_point::TangentValues;
 use crate::system::TangentAssembler;
 
 /// Largest number of times in which offsets and bounds of friction are corrected.
@@ -42,14 +43,12 @@ impl StepEquations<'_> {
 
     fn solve_impacts(&mut self, contacts: &mut StepContacts) -> Result<(), Failure> {
         self.linearize_end(&mut contacts.impacts);
-        let kinetic = self.kinetic_energy(&mut contacts.impacts);
+        let kinetic = self.system.energy(&self.work.motions[0].at).kinetic;
         let lost = self.lost(contacts);
         self.find_departures(contacts)?;
-        // Shares and what they return: the largest that gains no energy, and the smallest that does.
-        let (mut low, mut high) = ([0.0; 2], [1.0, f64::INFINITY]);
-        let mut share = 1.0;
-        let mut is_found = false;
-        for count in 0..MAX_SHARES {
+        let tolerances = [GAIN * kinetic, UNUSED * kinetic];
+        let mut rebounds = Rebounds::new(lost, tolerances, MAX_SHARES);
+        while let Some(share) = rebounds.next_share() {
             contacts.impacts.begin(share);
             for round in 0..=MAX_OFFSETS {
                 self.converge(contacts, round == 0)?;
@@ -59,29 +58,18 @@ impl StepEquations<'_> {
                     break;
                 }
             }
-            let returned = self.returned(&mut contacts.impacts);
-            let impacts = &mut contacts.impacts;
-            if returned - lost <= GAIN * kinetic {
-                low = [share, returned];
-                is_found = true;
+            if rebounds.record(self.returned(&mut contacts.impacts)) {
+                let impacts = &mut contacts.impacts;
                 std::mem::swap(&mut impacts.best, &mut impacts.change);
                 impacts.best_states.clone_from(&impacts.states);
-                if count == 0 || lost - returned < UNUSED * kinetic || count + 2 >= MAX_SHARES {
-                    break;
-                }
-            } else {
-                high = [share, returned];
             }
-            let missing = (lost - low[1]).max(0.0) / (high[1] - low[1]);
-            let part = if low[0] > 0.0 { 0.9 * missing } else { 0.99 * missing.sqrt() };
-            share = low[0] + (high[0] - low[0]) * part.clamp(0.05, 0.98);
         }
         let impacts = &mut contacts.impacts;
-        if is_found {
+        if let Some(share) = rebounds.found() {
             std::mem::swap(&mut impacts.best, &mut impacts.change);
             std::mem::swap(&mut impacts.best_states, &mut impacts.states);
             for own in &mut impacts.participants {
-                own.departure *= low[0];
+                own.departure *= share;
             }
         } else {
             // The step stops what meets.
@@ -96,19 +84,8 @@ impl StepEquations<'_> {
         let (system, at) = (self.system, &self.work.motions[0].at);
         let layout = system.layout();
         let pattern = &system.structure().pattern;
-        let zero = vec![0.0; layout.multiplier_count];
-        let still = vec![MotionChange::none(); at.nodes.len()];
-        let unchanged = vec![0.0; at.coordinates.len()];
-        let point = Point {
-            at,
-            stressed: at.into(),
-            increments: Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None },
-            multipliers: &zero,
-            violations: &zero,
-            augmentation: Augmentation::of_lengths(self.scaled.unit(Quantity::Angle)),
-        };
         let Impacts { linearization: all, operator, smooth, .. } = impacts;
-        system.linearize(&point, Chart::Body, all);
+        system.linearize_at(at, Augmentation::of_lengths(self.scaled.unit(Quantity::Angle)), all);
         operator.clear();
         operator.extend_from_slice(&all.mass);
         // States have no inertia.
@@ -197,19 +174,11 @@ impl StepEquations<'_> {
             let Impacts { participants, points, states, changes, change, right, .. } = impacts;
             changes.clear();
             changes.extend(points.iter().map(|point| -point.change(at, |node| of_node(layout, node, right))));
-            let steepening = |(state, change): (&TouchState, &Vector3)| change.dot(&(state.slope * change));
-            let rise = (-slope - states.iter().zip(&*changes).map(steepening).sum::<f64>()).max(0.0);
-            let known: f64 =
-                states.iter().zip(&*changes).map(|(state, change)| state.force.dot(change)).sum();
-            let touches = |share: f64| -> f64 {
-                let each = participants.iter().zip(&*points).zip(states.iter().zip(&*changes));
-                each.map(|((own, point), (state, change))| {
-                    let velocity = state.displacement + share * change;
-                    own.clone().evaluate(point, velocity, false).force.dot(change)
-                })
-                .sum()
+            let force = |k: usize, velocity: Vector3| {
+                participants[k].clone().evaluate(&points[k], velocity, false).force
             };
-            let share = minimum_along(slope, |share| slope + known + share * rise - touches(share));
+            let slopes = states.iter().map(|state| &state.slope);
+            let share = share_of_correction(slope, (states, slopes, changes), force);
             for (value, correction) in change.iter_mut().zip(&*right) {
                 *value -= share * correction;
             }
@@ -224,15 +193,9 @@ impl StepEquations<'_> {
             self.take_pattern(contacts);
         }
         let StepContacts { impacts, pattern, .. } = contacts;
-        let TangentValues::Real(mut values) = self.work.tangent.matrices.take_values(0) else {
-            unreachable!("the scheme has one stage")
-        };
         let touches = (&impacts.points[..], &impacts.states[..], 1.0);
-        pattern.assemble(&impacts.smooth, touches, (&self.work.motions[0].at, layout), &mut values);
-        self.work.tangent.matrices.set_values(0, TangentValues::Real(values));
+        self.factor_with(pattern, &impacts.smooth, touches).map_err(Failure::Factor)?;
         let scale = self.scaled.scale();
-        self.work.tangent.renew(&pattern.structure, scale).map_err(Failure::Factor)?;
-        self.work.newton.effort.factorizations += 1;
         let right = &mut self.work.residuals[0];
         right.copy_from_slice(&impacts.right);
         let count = layout.coordinate_count();
@@ -244,15 +207,6 @@ impl StepEquations<'_> {
         solution[count..].iter_mut().for_each(|value| *value *= scale);
         impacts.right.copy_from_slice(solution);
         Ok(())
-    }
-
-    /// ½ v_Aᵀ M v_A [J].
-    fn kinetic_energy(&self, impacts: &mut Impacts) -> f64 {
-        let pattern = &self.system.structure().pattern;
-        let Impacts { linearization, right, product, .. } = impacts;
-        velocities(self.system.layout(), &self.work.motions[0].at, right);
-        pattern.multiply(&linearization.mass, right, product);
-        0.5 * dot(right, product)
     }
 
     /// Energy that the step has lost [J]: ½ (v_A - v)ᵀ M (v_A - v), and what its touches have dissipated.
@@ -303,14 +257,7 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 /// Velocities by row; zeros for states and multipliers.
 fn velocities(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
     out.fill(0.0);
-    for (rows, node) in layout.node_rows.iter().zip(&at.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|(_, row)| **row != LOCKED) {
-            out[row as usize] = node.twist[k];
-        }
-    }
-    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&at.coordinates) {
-        out[row as usize] = coordinate.rate;
-    }
+    gather_rates(layout, at, out);
     for (row, ..) in layout.states() {
         out[row] = 0.0;
     }

@@ -4,7 +4,6 @@ mod accumulated;
 mod arc;
 pub(crate) mod breakpoints;
 pub(crate) mod cause;
-mod contact_problem;
 mod converged_tangents;
 pub mod dynamics;
 pub mod equilibrium;

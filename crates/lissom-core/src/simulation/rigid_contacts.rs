@@ -1,15 +1,9 @@
 //! Constraints that switch between two steps: impacts of latches and at rigid contacts, and the modes of all rigid contacts.
 //!
-//! Legend: u velocity of the tip's point at a contact before (-) and after (+) an impact, n normal, e restitution.
+//! All contacts that touch take part in an impact at once, see [`impacts`](crate::impacts). Without restitution the impulses dissipate, with
+//! the velocities of a contact u before (-) and after (+) it: ΔT = P·(u⁺ + u⁻)/2 = P·u⁺ - P·G P/2 with P·u⁺ ≤ 0.
 //!
-//! ```text
-//! 0 ≤ P_n ⊥ u_n⁺ + e u_n⁻ ≥ 0,      |P_t| ≤ μ P_n,    opposed to u_t⁺ where it is not zero
-//! ```
-//!
-//! at all contacts that touch, at once. Without restitution the impulses dissipate: ΔT = P·(u⁺ + u⁻)/2 = P·u⁺ - P·G P/2 with
-//! P·u⁺ ≤ 0. Restitution at some contacts and friction at others may add energy; e is then reduced until it does not.
-//!
-//! Between impacts the same conditions relate forces and accelerations of the contacts that touch and do not separate. They
+//! Between impacts its conditions relate forces and accelerations of the contacts that touch and do not separate. They
 //! determine which contacts open, slide and stick. Forces of redundant contacts have minimum norm, as have reactions of redundant
 //! joints. A contact that pulls opens. A contact whose friction is beyond its cone is saturated, and the others keep the part at
 //! rest.
@@ -17,14 +11,15 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
 use super::Simulation;
-use super::contact_problem::{Condition, ContactProblem};
 use super::held_values::settle;
-use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
+use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias, add_rates};
 use crate::contact::point::PointMotion;
 use crate::contact::rigid::{Mode, RigidContact};
 use crate::errors::{InitialError, StepError, Warning, warn};
+use crate::impacts::dense::{Condition, ContactProblem};
+use crate::impacts::{Rebounds, tangents};
 use crate::integrator::dense::at_share;
-use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
+use crate::kinematics::{Kinematics, LOCKED, Subject};
 use crate::system::{State, System};
 
 /// Gaps below this fraction of the representative length are closed.
@@ -43,12 +38,11 @@ const DEPENDENT: f64 = 1e-10;
 const PARTICIPATES: f64 = 1e-6;
 /// Energy beyond this fraction of that before is not round-off.
 const GAIN: f64 = 1e-12;
-/// Bisections of the restitution.
-const BISECTIONS: usize = 50;
+/// Largest number of shares of the rebounds.
+const MAX_SHARES: usize = 50;
 
 /// A contact that touches.
 struct Candidate<'s> {
-    index: usize,
     contact: &'s RigidContact,
     touching: PointMotion,
     /// Normal and two tangents.
@@ -59,17 +53,11 @@ struct Candidate<'s> {
     rows: Vec<DVector<f64>>,
 }
 
-/// Normal and two tangents.
-fn axes(normal: &Vector3<f64>) -> Matrix3<f64> {
-    let least = normal.iamin();
-    let first = normal.cross(&Vector3::ith(least, 1.0)).normalize();
-    Matrix3::from_columns(&[*normal, first, normal.cross(&first)])
-}
-
 impl<'s> Candidate<'s> {
-    fn new(system: &System, (index, contact): (usize, &'s RigidContact), at: &Kinematics) -> Self {
+    fn new(system: &System, contact: &'s RigidContact, at: &Kinematics) -> Self {
         let touching = contact.touching(at);
-        let axes = axes(&touching.gap.normal);
+        let [first, second] = tangents(&touching.gap.normal);
+        let axes = Matrix3::from_columns(&[touching.gap.normal, first, second]);
         let layout = system.layout();
         let local = contact.rows(&touching, &axes);
         let rows = (0..3)
@@ -86,7 +74,7 @@ impl<'s> Candidate<'s> {
             })
             .collect();
         let velocity = axes.tr_mul(&touching.velocity);
-        Self { index, contact, touching, axes, velocity, rows }
+        Self { contact, touching, axes, velocity, rows }
     }
 
     fn sliding(&self) -> Vector2<f64> {
@@ -113,16 +101,9 @@ fn set_direction(contact: &RigidContact, direction: &Vector3<f64>, at: &mut Kine
     }
 }
 
-/// Adds changes of velocities, by row.
-fn add_velocities(layout: &Layout, changes: &DVector<f64>, at: &mut Kinematics) {
-    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
-        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-            node.twist[k] += changes[row as usize];
-        }
-    }
-    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
-        coordinate.rate += changes[row as usize];
-    }
+/// Opens all contacts.
+fn open_all(system: &System, at: &mut Kinematics) {
+    system.rigid_contacts().for_each(|contact| set_mode(contact, Mode::Open, at));
 }
 
 /// Change of velocities with the multipliers of joints, for unit impulses at the contacts, by column.
@@ -168,18 +149,13 @@ pub(super) fn resolve(
 ) -> Result<Outcome, InitialError> {
     let mut outcome = Outcome::default();
     let mut free = state.clone();
-    for contact in system.rigid_contacts() {
-        set_mode(contact, Mode::Open, &mut free.kinematics);
-    }
+    open_all(system, &mut free.kinematics);
     let at = &state.kinematics;
     let is_candidate = |index: usize, contact: &RigidContact| {
         contact.mode(at) != Mode::Open || touched.contains(&index) || contact.touching(at).gap.value <= near
     };
-    let of_state = |at: &Kinematics, kept: &dyn Fn(usize, &RigidContact) -> bool| -> Vec<Candidate<'_>> {
-        let all = system.rigid_contacts().enumerate().filter(|&(index, contact)| kept(index, contact));
-        all.map(|(index, contact)| Candidate::new(system, (index, contact), at)).collect()
-    };
-    let mut candidates = of_state(at, &is_candidate);
+    let all = system.rigid_contacts().enumerate().filter(|&(index, contact)| is_candidate(index, contact));
+    let mut candidates: Vec<_> = all.map(|(_, contact)| Candidate::new(system, contact, at)).collect();
     if candidates.is_empty() {
         return Ok(outcome);
     }
@@ -190,7 +166,7 @@ pub(super) fn resolve(
         outcome.is_slow = candidates.iter().all(|own| own.velocity[0] >= -own.contact.law.rest_velocity);
         impact(system, (&candidates, &responses, &compliance), state, &mut outcome)?;
         for candidate in &mut candidates {
-            *candidate = Candidate::new(system, (candidate.index, candidate.contact), &state.kinematics);
+            *candidate = Candidate::new(system, candidate.contact, &state.kinematics);
         }
         let held = std::mem::take(&mut free.kinematics.held);
         free.kinematics.clone_from(&state.kinematics);
@@ -255,9 +231,7 @@ pub(super) fn impact_of_latches(
     state: &mut State,
 ) -> Result<(), InitialError> {
     let held = state.kinematics.held.clone();
-    for contact in system.rigid_contacts() {
-        set_mode(contact, Mode::Open, &mut state.kinematics);
-    }
+    open_all(system, &mut state.kinematics);
     let found = initial.velocities(system, state);
     state.kinematics.held = held;
     found.map(|_| ())
@@ -293,26 +267,31 @@ fn impact(
     let unsolved = || InitialError::ContactForces { contact: candidates[0].subject() };
     let (mut impulses, mut gain) = solve(1.0).ok_or_else(unsolved)?;
     if gain > GAIN * kinetic {
-        let (mut low, mut high) = (0.0, 1.0);
+        let with_all = gain;
         (impulses, gain) = solve(0.0).ok_or_else(unsolved)?;
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            match solve(middle) {
-                Some((found, own)) if own <= GAIN * kinetic => (low, impulses, gain) = (middle, found, own),
-                _ => high = middle,
+        let least = gain;
+        let mut rebounds = Rebounds::new(-least, [GAIN * kinetic; 2], MAX_SHARES);
+        rebounds.record(with_all - least);
+        while let Some(share) = rebounds.next_share() {
+            let found = solve(share);
+            let returned = found.as_ref().map_or(f64::INFINITY, |(_, gain)| gain - least);
+            if rebounds.record(returned)
+                && let Some(found) = found
+            {
+                (impulses, gain) = found;
             }
         }
         outcome.warnings.push(Warning::RestitutionReduced {
             time: state.kinematics.time,
             contact: candidates[0].subject(),
-            factor: low,
+            factor: rebounds.found().unwrap_or(0.0),
         });
     }
     let mut changes = DVector::zeros(system.layout().size());
     for (response, impulse) in responses.iter().zip(impulses.iter()) {
         changes += response * *impulse;
     }
-    add_velocities(system.layout(), &changes, &mut state.kinematics);
+    add_rates(system.layout(), (1.0, changes.as_slice()), &mut state.kinematics);
     outcome.lost = Some(-gain);
     Ok(())
 }
@@ -612,18 +591,15 @@ impl Simulation {
         };
         let sliding: Vec<_> = system
             .rigid_contacts()
-            .enumerate()
-            .filter(|(_, contact)| slides(contact))
-            .map(|(index, contact)| Candidate::new(system, (index, contact), &state.kinematics))
+            .filter(|contact| slides(contact))
+            .map(|contact| Candidate::new(system, contact, &state.kinematics))
             .filter(|candidate| candidate.sliding().norm() > candidate.contact.still())
             .collect();
         let Some(initial) = self.held_values.as_mut().filter(|_| !sliding.is_empty()) else { return Ok(()) };
         let time = state.kinematics.time;
         let mut check = || {
             let mut free = state.clone();
-            for contact in system.rigid_contacts() {
-                set_mode(contact, Mode::Open, &mut free.kinematics);
-            }
+            open_all(system, &mut free.kinematics);
             initial.factor(system, &free, Inertias::All)?;
             let responses = responses(system, initial, &sliding);
             let condition = |candidate: &Candidate<'_>| Condition {

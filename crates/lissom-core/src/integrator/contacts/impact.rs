@@ -13,16 +13,16 @@
 //! ```
 //!
 //! u_f is the velocity without the touches of the impact. The offsets b and o make the result independent of w, also where joints or
-//! elastic parts add to the effective mass [augmented Lagrangian method, Alart and Curnier 1991]. Touches that last do not approach [law of
-//! Newton]. The share s of the rebounds is 1, or less if the kinetic energy that they return were more than what the step has lost.
-//! Only parts that touches, joints or elastic parts connect with an impact take part.
+//! elastic parts add to the effective mass [augmented Lagrangian method, Alart and Curnier 1991]. Touches that last do not approach. The
+//! share s belongs to the [law](crate::impacts) with E₀ the energy that the step has lost. Only parts that touches, joints or elastic parts
+//! connect with an impact take part.
 
 use lissom_motion::{Vector3, Vector6};
 use lissom_solver::Pattern;
 use nalgebra::Vector2;
 
 use super::touch_point::{Phase, TouchPoint, TouchState, add_friction};
-use super::{BOUND_CHANGE, StepContacts};
+use super::{StepContacts, have_changed};
 use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use crate::system::{Linearization, System};
 
@@ -204,14 +204,11 @@ impl Impacts {
 
     /// Fixes the bounds of friction anew. Whether they have changed.
     pub(crate) fn fix_bounds(&mut self) -> bool {
-        let (mut change, mut all) = (0.0, 0.0);
-        for ((own, point), state) in self.participants.iter_mut().zip(&self.points).zip(&self.states) {
+        let all = self.participants.iter_mut().zip(&self.points).zip(&self.states);
+        have_changed(all.map(|((own, point), state)| {
             let bound = point.friction_of(state.force.z, state.displacement.xy().norm());
-            change += (bound - own.bound).powi(2);
-            all += bound * bound;
-            own.bound = bound;
-        }
-        change > BOUND_CHANGE * BOUND_CHANGE * all
+            [bound - std::mem::replace(&mut own.bound, bound), bound]
+        }))
     }
 
     /// Corrects the offsets of pressed points for a share of the rebounds. Whether velocities are not yet accurate.

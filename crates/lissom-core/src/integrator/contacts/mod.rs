@@ -21,7 +21,7 @@ mod touch_point;
 use lissom_motion::{Matrix3, Vector3};
 use lissom_solver::SolverKind;
 
-use self::coupled_pattern::CoupledPattern;
+pub(crate) use self::coupled_pattern::CoupledPattern;
 use self::impact::Impacts;
 use self::near_points::NearPoints;
 pub(crate) use self::touch_point::{TouchPoint, TouchState};
@@ -172,32 +172,8 @@ impl StepContacts {
             return false;
         }
         self.rounds += 1;
-        let (mut change, mut all) = (0.0, 0.0);
-        for (point, state) in self.near.points.iter_mut().zip(&self.states) {
-            change += point.update_bound(state).powi(2);
-            all += point.bound.powi(2);
-        }
-        change > BOUND_CHANGE * BOUND_CHANGE * all
-    }
-
-    /// Share α of a correction at which the slope ℓ' along it vanishes: `slope` is ℓ'(0), and `rise` its increase over the correction
-    /// without touches.
-    pub(crate) fn search(&self, slope: f64, rise: f64) -> f64 {
-        let touches = |share: f64| -> f64 {
-            let each = self.near.points.iter().zip(&self.states).zip(&self.changes);
-            each.map(|((point, state), change)| {
-                point.force(&(state.displacement + share * change)).dot(change)
-            })
-            .sum()
-        };
-        let known: f64 = slope
-            + self
-                .states
-                .iter()
-                .zip(&self.changes)
-                .map(|(state, change)| state.force.dot(change))
-                .sum::<f64>();
-        minimum_along(slope, |share| known + share * rise - touches(share))
+        let pairs = self.near.points.iter_mut().zip(&self.states);
+        have_changed(pairs.map(|(point, state)| [point.update_bound(state), point.bound]))
     }
 
     /// The touches of a motion that begins, before its first step.
@@ -228,8 +204,36 @@ fn form_of(slope: &Matrix3) -> [bool; 2] {
     [slope[(2, 2)] > 0.0, slope[(0, 0)] == slope[(1, 1)] && slope[(0, 1)] == 0.0]
 }
 
+/// Whether bounds are not yet accurate, from the change of each and its value.
+fn have_changed(bounds: impl Iterator<Item = [f64; 2]>) -> bool {
+    let add = |[changes, all]: [f64; 2], [change, bound]: [f64; 2]| {
+        [changes + change * change, all + bound * bound]
+    };
+    let [changes, all] = bounds.fold([0.0; 2], add);
+    changes > BOUND_CHANGE * BOUND_CHANGE * all
+}
+
+/// Share α of a correction at which the slope ℓ' along it vanishes, which is `slope` at its start: of touches with their states, the
+/// slopes that the correction is solved with and the changes of their displacements by it, and with these forces at displacements.
+pub(crate) fn share_of_correction<'a>(
+    slope: f64,
+    (states, slopes, changes): (&[TouchState], impl Iterator<Item = &'a Matrix3>, &[Vector3]),
+    force: impl Fn(usize, Vector3) -> Vector3,
+) -> f64 {
+    let touches = || states.iter().zip(changes).enumerate();
+    let steepening: f64 = slopes.zip(changes).map(|(slope, change)| change.dot(&(slope * change))).sum();
+    let rise = (-slope - steepening).max(0.0);
+    let known = slope + touches().map(|(_, (state, change))| state.force.dot(change)).sum::<f64>();
+    minimum_along(slope, |share| {
+        let of = |(k, (state, change)): (usize, (&TouchState, &Vector3))| {
+            force(k, state.displacement + share * change).dot(change)
+        };
+        known + share * rise - touches().map(of).sum::<f64>()
+    })
+}
+
 /// Share of a correction at which the slope `at` along it vanishes, which is `slope` at its start.
-pub(crate) fn minimum_along(slope: f64, at: impl Fn(f64) -> f64) -> f64 {
+fn minimum_along(slope: f64, at: impl Fn(f64) -> f64) -> f64 {
     let end = at(1.0);
     if !(slope < 0.0 && end > WHOLE * -slope) {
         return 1.0;

@@ -1,4 +1,4 @@
-//! Tests of `simulation::contact_problem`, a module of it.
+//! Tests of `impacts::dense`, a module of it.
 
 use super::*;
 

@@ -1,16 +1,18 @@
-//! Forces or impulses at rigid contacts that satisfy Signorini's and Coulomb's conditions.
+//! Impulses at rigid contacts, or forces with accelerations in place of velocities.
 //!
-//! Legend: by contact, p impulse (or force) on the tip along the normal (p_n) and two tangents (p_t), w = G p + b velocity (or
-//! acceleration) after it, G compliance, b without it, β velocity of rebound, d direction of sliding.
+//! Legend, beside that of [impacts](super): p impulse (or force), w = G p + b velocity (or acceleration) after it, G compliance, b without
+//! it, β = s e u_n⁻, d direction of sliding.
 //!
 //! ```text
-//! 0 ≤ p_n ⊥ w_n + β ≥ 0,      |p_t| ≤ μ p_n,    p_t = -μ p_n w_t/|w_t| where w_t ≠ 0;      p_t = -μ p_n d where it slides
+//! 0 ≤ p_n ⊥ w_n + β ≥ 0;      p_t = -μ p_n d where it slides
 //! ```
 //!
 //! Solved by Gauss-Seidel iteration with projection on the cones [Moreau 1988, Jean 1999]. Compliances may be singular: forces of
 //! contacts that repeat each other are then not unique, and their motion is.
 
 use nalgebra::{DMatrix, DVector, Vector2};
+
+use super::limit_friction;
 
 /// Iterations, for every relaxation.
 const MAX_SWEEPS: usize = 20_000;
@@ -137,8 +139,7 @@ impl ContactProblem {
                 let own = block.trace().max(f64::MIN_POSITIVE);
                 let sliding = Vector2::from_fn(|k, _| velocity(first + 1 + k, impulses));
                 let tangential = Vector2::new(before[1], before[2]) - relaxation * sliding / own;
-                let length = tangential.norm();
-                if length > largest_friction { tangential * (largest_friction / length) } else { tangential }
+                limit_friction(tangential, largest_friction).0
             } else {
                 Vector2::zeros()
             };
@@ -153,5 +154,5 @@ impl ContactProblem {
 }
 
 #[cfg(test)]
-#[path = "../../tests/unit/simulation/contact_problem.rs"]
+#[path = "../../tests/unit/impacts/dense.rs"]
 mod tests;
