@@ -33,7 +33,7 @@ use crate::settings::Settings;
 use crate::settings::{Phase, Stopwatch};
 use crate::settings::{StepReport, Totals};
 use crate::simulation::{EventDetector, Stops};
-use crate::simulation::{Origin, Simulation};
+use crate::simulation::{Origin, RunReport, Simulation};
 use crate::system::{State, System};
 
 impl Simulation {
@@ -106,9 +106,11 @@ impl Simulation {
             state,
             settings,
             held_values,
-            totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
-            energy_balance,
-            warnings,
+            report: RunReport {
+                energy_balance,
+                warnings,
+                totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
+            },
             events,
             accumulation: Accumulation::default(),
             units: super::units::AttachedUnits::default(),
@@ -164,7 +166,7 @@ impl Simulation {
             ref weights => StepWork::of_stages(&self.system, (weights, size), motions, multipliers),
         };
         let work = work.with_loads(size * end.touch_power());
-        let (after, violation) = judge.examine((start, end), work, &self.energy_balance)?;
+        let (after, violation) = judge.examine((start, end), work, &self.report.energy_balance)?;
         (self.attempt.energy_balance, self.attempt.violation) = (after, violation);
         Ok(())
     }
@@ -177,13 +179,13 @@ impl Simulation {
             origin: &self.origin.kinematics,
             start: self.attempt.start(&self.state),
             end: &self.attempt.end,
-            energy_balance: [&self.energy_balance, &self.attempt.energy_balance],
+            energy_balance: [&self.report.energy_balance, &self.attempt.energy_balance],
             violation: self.attempt.violation,
             prediction_error: self.attempt.outcome.first_correction,
             fraction: self.control.fraction(&self.attempt),
             has_switched: self.events.known.has_switched,
         };
-        self.monitors.accept(&mut step, &mut self.warnings);
+        self.monitors.accept(&mut step, &mut self.report.warnings);
         self.record_signals();
         self.commit_attempt();
     }
@@ -196,9 +198,9 @@ impl Simulation {
             &self.integrator,
             &mut self.attempt,
             &self.state,
-            &mut self.warnings,
+            &mut self.report.warnings,
         );
-        self.energy_balance = self.attempt.energy_balance;
+        self.report.energy_balance = self.attempt.energy_balance;
         let multipliers = &self.attempt.start(&self.state).multipliers;
         self.integrator.learn(&self.settings, multipliers);
         self.attempt.accept(&mut self.previous, &mut self.state);
@@ -206,7 +208,7 @@ impl Simulation {
 
     /// Adds a completed step to the totals.
     pub(crate) fn count(&mut self, report: &StepReport) {
-        let (totals, work) = (&mut self.totals, &self.integrator.work);
+        let (totals, work) = (&mut self.report.totals, &self.integrator.work);
         totals.steps += report.parts;
         totals.stagnated_steps += usize::from(report.stagnated);
         totals.fell_back_at = work.tangent.fell_back().map(|(unknown, _)| unknown);

@@ -201,14 +201,15 @@ impl Simulation {
         }
         let mut laws = self.laws_that_end_steps(usize::MAX);
         laws.retain(|(subject, _)| !subject.kind.is_empty());
-        let (ended, steps) = (laws.iter().map(|(_, steps)| steps).sum::<usize>(), self.totals.steps + 1);
+        let (ended, steps) =
+            (laws.iter().map(|(_, steps)| steps).sum::<usize>(), self.report.totals.steps + 1);
         if (ended as f64) < LAW_ENDS * steps as f64 || ended < MIN_LAW_ENDS {
             return;
         }
         let words = laws.iter().take(MAX_LISTED).map(|(law, steps)| format!("{law} ({steps})"));
         let laws = Subject::nameless(words.collect::<Vec<_>>().join(", "));
         let time = self.state.kinematics.time;
-        warn(&mut self.warnings, Warning::LawsEndSteps { time, ended, steps, laws });
+        warn(&mut self.report.warnings, Warning::LawsEndSteps { time, ended, steps, laws });
     }
 
     fn chatters(&self, which: usize) -> StepError {

@@ -125,7 +125,7 @@ impl Simulation {
             at.held[held.index()] = value;
         }
         graph.check(&at).map_err(InputError::Signal)?;
-        if self.totals.steps > 0 {
+        if self.report.totals.steps > 0 {
             return Ok(self.change_held_values(at)?);
         }
         self.begin_with(at)?;
@@ -145,7 +145,7 @@ impl Simulation {
                 impact_of_latches(&self.system, initial, &mut state)?;
                 let [before, after] = [&self.state, &state].map(|state| &state.kinematics);
                 let of_touches = self.state.touch_energy();
-                self.energy_balance.record_impact(&self.system, (before, after), of_touches, None);
+                self.report.energy_balance.record_impact(&self.system, (before, after), of_touches, None);
             }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }

@@ -41,6 +41,7 @@ pub use units::{Unit, UnitFault};
 use std::sync::Arc;
 
 use lissom_solver::FactorReport;
+use serde::{Deserialize, Serialize};
 
 use super::settings::Settings;
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
@@ -66,8 +67,6 @@ pub struct Simulation {
     /// The state after the last step, and the one before it, which is the same before the first step.
     pub(crate) state: State,
     pub(crate) previous: State,
-    /// Energy and work up to the state.
-    pub(crate) energy_balance: EnergyBalance,
     /// Start of the simulation.
     pub(crate) origin: Origin,
     /// Solves steps.
@@ -89,7 +88,13 @@ pub struct Simulation {
     /// Models of other programs whose equations are part of the system.
     pub(crate) exchanged: ExchangedUnits,
     pub(crate) monitors: Monitors,
-    /// Warnings about the motion up to the state.
+    pub(crate) report: RunReport,
+}
+
+/// What is reported of a run up to its state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct RunReport {
+    pub(crate) energy_balance: EnergyBalance,
     pub(crate) warnings: Vec<Warning>,
     pub(crate) totals: Totals,
 }
@@ -153,12 +158,12 @@ impl Simulation {
 
     /// Energy of the model, and work of loads and drives since the start.
     pub fn energy_balance(&self) -> &EnergyBalance {
-        &self.energy_balance
+        &self.report.energy_balance
     }
 
     /// Warnings about the motion up to the state, each kind once.
     pub fn warnings(&self) -> &[Warning] {
-        &self.warnings
+        &self.report.warnings
     }
 
     /// Stability of the equilibria of load steps: load parameters [s] from which they have this number of unstable directions; none if
@@ -184,7 +189,7 @@ impl Simulation {
 
     /// Sums over all steps.
     pub fn totals(&self) -> &Totals {
-        &self.totals
+        &self.report.totals
     }
 
     /// The settings.

@@ -133,7 +133,7 @@ impl Simulation {
     /// Stores the equilibrium found by relaxation, a step of `size` [s] after the start, as the last attempt. The first load step
     /// failed with `error`.
     pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
-        let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
+        let is_first = self.report.totals.steps == 0 && !self.settings.scheme.dynamic;
         if !(self.origin.may_relax
             && is_first
             && may_help(error, &self.system, &self.state, self.settings.solver))
@@ -143,7 +143,7 @@ impl Simulation {
         let time = self.state.kinematics.time + size;
         let mut iterations = 0;
         let found = relax(&self.system, &self.state, &self.settings, time, &mut iterations);
-        self.totals.newton_iterations += iterations;
+        self.report.totals.newton_iterations += iterations;
         let Some((reached, doubts)) = found else {
             let mut error = error.clone();
             if let StepError::NotConverged { hint, .. } = &mut error
@@ -161,7 +161,7 @@ impl Simulation {
         self.attempt.end.kinematics.time = time;
         self.judge_attempt()?;
         for doubt in doubts {
-            warn(&mut self.warnings, doubt);
+            warn(&mut self.report.warnings, doubt);
         }
         Ok(())
     }

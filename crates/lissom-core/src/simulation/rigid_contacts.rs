@@ -567,7 +567,12 @@ impl Simulation {
                 let mut before = &kept.kinematics;
                 if let Some(latched) = &latched {
                     let of_touches = self.state.touch_energy();
-                    self.energy_balance.record_impact(&self.system, (before, latched), of_touches, None);
+                    self.report.energy_balance.record_impact(
+                        &self.system,
+                        (before, latched),
+                        of_touches,
+                        None,
+                    );
                     before = latched;
                 }
                 self.finish_contacts(before, outcome);
@@ -626,10 +631,10 @@ impl Simulation {
         if outcome.lost.is_some() {
             let after = &self.state.kinematics;
             let of_touches = self.state.touch_energy();
-            self.energy_balance.record_impact(&self.system, (before, after), of_touches, outcome.lost);
+            self.report.energy_balance.record_impact(&self.system, (before, after), of_touches, outcome.lost);
         }
         for warning in outcome.warnings {
-            warn(&mut self.warnings, warning);
+            warn(&mut self.report.warnings, warning);
         }
         for contact in self.system.rigid_contacts() {
             let mode = contact.mode(&self.state.kinematics);
@@ -686,7 +691,7 @@ impl Simulation {
         }
         if let Some(function) = missed {
             let time = from.kinematics.time;
-            warn(&mut self.warnings, Warning::FunctionUnseen { time, function, step });
+            warn(&mut self.report.warnings, Warning::FunctionUnseen { time, function, step });
         }
     }
 

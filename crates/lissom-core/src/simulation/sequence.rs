@@ -71,15 +71,15 @@ impl Simulation {
         if let Some(step) = self.control.planned() {
             let unseen = self.stops.passed_unseen(&self.system, self.state.kinematics.time, step);
             if let Some(unseen) = unseen {
-                warn(&mut self.warnings, unseen);
+                warn(&mut self.report.warnings, unseen);
             }
         }
         let effort = self.integrator.work.newton.effort;
         report.iterations = effort.iterations - before.iterations;
         report.factorizations = effort.factorizations - before.factorizations;
-        self.totals.newton_iterations += report.iterations;
-        self.totals.factorizations += report.factorizations;
-        self.totals.rejected_steps += report.rejected;
+        self.report.totals.newton_iterations += report.iterations;
+        self.report.totals.factorizations += report.factorizations;
+        self.report.totals.rejected_steps += report.rejected;
         result?;
         self.count(&report);
         Ok(report)
@@ -180,7 +180,7 @@ impl Simulation {
             let is_whole = has_arrived && stop.is_last && stop.crossing.is_none() && self.events.is_empty();
             if planned.is_some() && !is_whole && progress.start.is_none() {
                 let known = self.events.known.clone();
-                let start = (self.previous.clone(), self.state.clone(), self.energy_balance, known);
+                let start = (self.previous.clone(), self.state.clone(), self.report.energy_balance, known);
                 progress.start = Some(Box::new(start));
             }
             self.accept_attempt();
@@ -247,7 +247,7 @@ impl Simulation {
             attempt: &self.attempt,
             origin: &self.origin.kinematics,
             start: self.attempt.start(&self.state),
-            energy_balance: &self.energy_balance,
+            energy_balance: &self.report.energy_balance,
             has_switched: self.events.known.has_switched,
         };
         if !self.control.review(review) {
@@ -275,7 +275,7 @@ impl Simulation {
     /// Returns to the start of a step that failed; a first load step may be solved by relaxation.
     fn recover(&mut self, error: StepError, progress: Progress<'_>) -> Result<(), StepError> {
         if let Some(start) = progress.start {
-            (self.previous, self.state, self.energy_balance, self.events.known) = *start;
+            (self.previous, self.state, self.report.energy_balance, self.events.known) = *start;
             self.forget_signals();
         }
         self.control.restart();
@@ -305,13 +305,16 @@ impl Simulation {
     /// Warns after a part of a planned step that does not resolve a law of the motion.
     fn report_unresolved_laws(&mut self) {
         let Some(step) = self.control.planned().filter(|_| self.settings.scheme.dynamic) else { return };
-        if self.warnings.iter().any(|warning| matches!(warning, Warning::FunctionUnseen { .. })) {
+        if self.report.warnings.iter().any(|warning| matches!(warning, Warning::FunctionUnseen { .. })) {
             return;
         }
         let (from, to) = (&self.previous, &self.state);
         if let Some(index) = self.stops.laws.unresolved(&self.system, (from, to)) {
             let function = self.system.name_of_law(index, &to.kinematics);
-            warn(&mut self.warnings, Warning::FunctionUnseen { time: from.kinematics.time, function, step });
+            warn(
+                &mut self.report.warnings,
+                Warning::FunctionUnseen { time: from.kinematics.time, function, step },
+            );
         }
     }
 

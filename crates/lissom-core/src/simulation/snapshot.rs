@@ -9,22 +9,20 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use serde::{Deserialize, Serialize};
 
 use super::laws::Magnitudes;
-use super::{EventState, SavedEquations};
+use super::{EventState, RunReport, SavedEquations};
 use crate::diagnostics::diagnostics;
-use crate::energy_balance::EnergyBalance;
-use crate::errors::Warning;
 use crate::integrator::IntegratorHistory;
 use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion, Subject};
 use crate::newton::JacobianState;
 use crate::scaling::Scaled;
-use crate::settings::{Settings, Totals};
+use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::simulation::signal_history::SignalHistory;
 use crate::simulation::snapshot_parts::Learned;
 use crate::system::{State, Touch};
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 29;
+const VERSION: u32 = 30;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,9 +38,7 @@ pub struct Snapshot {
     step_size: f64,
     integrator: IntegratorSnapshot,
     control: Vec<u8>,
-    totals: Totals,
-    energy_balance: EnergyBalance,
-    warnings: Vec<Warning>,
+    report: RunReport,
     event_state: EventState,
     /// Magnitudes of scalar laws.
     magnitudes: Magnitudes,
@@ -231,9 +227,7 @@ impl Simulation {
                 history: self.integrator.history.as_ref().map(IntegratorHistory::to_numbers),
             },
             control: self.control.save(),
-            totals: self.totals,
-            energy_balance: self.energy_balance,
-            warnings: self.warnings.clone(),
+            report: self.report.clone(),
             event_state: self.events.known.clone(),
             magnitudes: self.stops.laws.magnitudes.clone(),
             monitors: self.monitors.save(),
@@ -285,9 +279,7 @@ impl Simulation {
             history.set_numbers(numbers);
         }
         integrator.work.note_scales(self.system.layout(), &integrator.scaled);
-        self.totals = from.totals;
-        self.energy_balance = from.energy_balance;
-        self.warnings.clone_from(&from.warnings);
+        self.report.clone_from(&from.report);
         self.events.known.clone_from(&from.event_state);
         self.integrator.has_last_step = false;
         Ok(())
