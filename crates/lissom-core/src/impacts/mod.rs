@@ -81,3 +81,7 @@ impl Rebounds {
         (self.low[0] > 0.0).then_some(self.low[0])
     }
 }
+
+#[cfg(test)]
+#[path = "../../tests/unit/impacts/mod.rs"]
+mod tests;
