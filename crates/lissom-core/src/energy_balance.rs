@@ -196,23 +196,23 @@ impl EnergyBalance {
     pub(crate) fn record_impact(
         &mut self,
         system: &System,
-        (before, after): (&Kinematics, &Kinematics),
-        of_touches: Energy,
+        before: &Kinematics,
+        after: &State,
         lost: Option<f64>,
     ) {
         let lost = lost.unwrap_or_else(|| {
-            let mut change = after.clone();
+            let mut change = after.kinematics.clone();
             change.nodes.iter_mut().zip(&before.nodes).for_each(|(own, before)| own.twist -= before.twist);
             let coordinates = change.coordinates.iter_mut().zip(&before.coordinates);
             coordinates.for_each(|(own, before)| own.rate -= before.rate);
             system.energy(&change).kinetic
         });
-        let [before, after] = [before, after].map(|at| system.energy(at));
-        let drives = after.kinetic - before.kinetic + lost;
+        let energy = system.energy_of(after);
+        let drives = energy.kinetic - system.energy(before).kinetic + lost;
         self.latches += lost;
         self.drives += drives;
         self.moved += drives.abs();
-        self.weigh([after, of_touches].into_iter().sum(), None);
+        self.weigh(energy, None);
     }
 
     /// Records the energy; in statics with the part of the weight that acts as a load.

@@ -143,9 +143,8 @@ impl Simulation {
         if let Some(initial) = &mut self.held_values {
             if engages {
                 impact_of_latches(&self.system, initial, &mut state)?;
-                let [before, after] = [&self.state, &state].map(|state| &state.kinematics);
-                let of_touches = self.state.touch_energy();
-                self.report.energy_balance.record_impact(&self.system, (before, after), of_touches, None);
+                let before = &self.state.kinematics;
+                self.report.energy_balance.record_impact(&self.system, before, &state, None);
             }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }

@@ -552,7 +552,7 @@ impl Simulation {
             let mut latched = None;
             if engages {
                 impact_of_latches(system, initial, state)?;
-                latched = Some(state.kinematics.clone());
+                latched = Some(state.clone());
             }
             let outcome = resolve(system, initial, state, (touched, near))?;
             let mut jump = initial.acceleration_at(system, state)?;
@@ -566,14 +566,8 @@ impl Simulation {
                 self.add_jump(jump);
                 let mut before = &kept.kinematics;
                 if let Some(latched) = &latched {
-                    let of_touches = self.state.touch_energy();
-                    self.report.energy_balance.record_impact(
-                        &self.system,
-                        (before, latched),
-                        of_touches,
-                        None,
-                    );
-                    before = latched;
+                    self.report.energy_balance.record_impact(&self.system, before, latched, None);
+                    before = &latched.kinematics;
                 }
                 self.finish_contacts(before, outcome);
                 Ok(())
@@ -629,9 +623,7 @@ impl Simulation {
             return;
         }
         if outcome.lost.is_some() {
-            let after = &self.state.kinematics;
-            let of_touches = self.state.touch_energy();
-            self.report.energy_balance.record_impact(&self.system, (before, after), of_touches, outcome.lost);
+            self.report.energy_balance.record_impact(&self.system, before, &self.state, outcome.lost);
         }
         for warning in outcome.warnings {
             warn(&mut self.report.warnings, warning);
