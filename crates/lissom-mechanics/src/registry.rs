@@ -269,6 +269,28 @@ impl DefaultValue {
     }
 }
 
+/// A range in which a number usually is, and what a number outside of it is likely to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Usual {
+    /// Least and largest size; zero is usual.
+    pub range: [f64; 2],
+    /// The likely mistake, such as a unit.
+    pub instead: &'static str,
+}
+
+impl Usual {
+    /// From a least to a largest size, with what a number beyond is likely to be.
+    pub const fn new(least: f64, most: f64, instead: &'static str) -> Self {
+        Self { range: [least, most], instead }
+    }
+
+    /// Whether a number is unusual.
+    pub fn excludes(&self, number: f64) -> bool {
+        let [least, most] = self.range;
+        number != 0.0 && !(least..=most).contains(&number.abs())
+    }
+}
+
 /// A parameter of a kind, or another key of a model file, with what its type of values is described by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Declared<T> {
@@ -284,6 +306,8 @@ pub struct Declared<T> {
     pub summary: &'static str,
     /// Value where the parameter is omitted; none if that follows from others or means that something is absent.
     pub default: Option<DefaultValue>,
+    /// Where it usually is; none if any number may be meant.
+    pub usual: Option<Usual>,
 }
 
 /// One parameter of a kind.
@@ -296,7 +320,7 @@ pub const fn required<T>(
     unit: &'static str,
     summary: &'static str,
 ) -> Declared<T> {
-    Declared { name, holds, required: true, unit, summary, default: None }
+    Declared { name, holds, required: true, unit, summary, default: None, usual: None }
 }
 
 /// A key that may be omitted.
@@ -306,7 +330,7 @@ pub const fn optional<T>(
     unit: &'static str,
     summary: &'static str,
 ) -> Declared<T> {
-    Declared { name, holds, required: false, unit, summary, default: None }
+    Declared { name, holds, required: false, unit, summary, default: None, usual: None }
 }
 
 /// A key without a unit that may be omitted.
@@ -342,6 +366,13 @@ impl<T> Declared<T> {
     #[must_use]
     pub const fn or_word(self, word: &'static str) -> Self {
         self.or(DefaultValue::Word(word))
+    }
+
+    /// This parameter with the range in which it usually is.
+    #[must_use]
+    pub const fn usual(mut self, usual: Usual) -> Self {
+        self.usual = Some(usual);
+        self
     }
 
     /// Summary with the default.

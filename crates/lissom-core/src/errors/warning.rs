@@ -490,7 +490,26 @@ diagnostics! {
             remedy: "shorten its `length`, unless the part is meant to fall into it",
             meaning: "A rope is longer at the start than the way along its points by more than 5 %. It carries nothing until its parts are so far \
                 apart.",
-            advice: "Without `length` a rope is as long as its way at the start, less its `preload`. Write a `length` only if it is slack or stretched.",
+            advice: "Without `length` a rope is as long as its way at the start. Write a `length` only if it is slack or stretched.",
+        }
+        /// A rope is taut far beyond its length at the start.
+        RopeStretched {
+            /// The start [s].
+            time: f64,
+            /// Parts of the rope.
+            parts: String,
+            /// How much shorter it is than the way along its points [m].
+            stretch: f64,
+            /// Length of the rope [m].
+            length: f64,
+        } => "rope-stretched" {
+            time: *time,
+            subject: Subject::new("part", parts),
+            cause: ("at the start the rope on `{parts}` is stretched by {stretch:.3} m: it is only {length:.3} m long"),
+            remedy: "omit `length`, which is then the way along its points, or write that of the whole rope with its arcs",
+            meaning: "A rope is shorter at the start than the way along its points by more than a tenth: its tension, `stiffness` times the difference, throws \
+                its parts together. Ropes of steel break at a hundredth.",
+            advice: "`length` is that of the whole rope in metres, with the arcs on its sheaves. Without it a rope is as long as its way at the start.",
         }
         /// A joint starts beyond its stops.
         BeyondStop {
@@ -623,6 +642,42 @@ diagnostics! {
             meaning: "Elements of one shell that are apart at the start cross each other at the end of the run, for example the opposite walls of a \
                 tube under pressure beyond its buckling. The shell has no contact with itself.",
             advice: "The result is valid up to the load at which the walls touch. Reduce the loads, or add a contact of the shell with itself.",
+        }
+        /// A tyre is flat.
+        TyreDeflected {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of its wheel.
+            part: String,
+            /// Deflection [m].
+            deflection: f64,
+            /// Largest one of usual tyres [m].
+            limit: f64,
+        } => "tyre-deflected" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at t = {time} s the tyre of `{part}` is pressed flat by {deflection:.3} m: a real one would rest on its rim from some {limit:.3} m on"),
+            remedy: "check the `radius` and `stiffness` of the tyre [m, N/m] and the height of the wheel at the start",
+            meaning: "The deflection of a tyre exceeds a quarter of its radius, about half of the height of its section.",
+            advice: "Check `radius` and `stiffness` of the tyre, and the height of its wheel at the start. Impacts on the rim need a contact of the wheel.",
+        }
+        /// A tyre with data of one direction starts in the other one.
+        TyreRollsBackwards {
+            /// The start [s].
+            time: f64,
+            /// Name of its wheel.
+            part: String,
+            /// Speed against the direction of rolling [m/s].
+            speed: f64,
+        } => "tyre-rolls-backwards" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at the start the wheel `{part}` moves at {speed:.2} m/s against the direction of rolling of its tyre: offsets of its file act on the wrong \
+                    side"),
+            remedy: "let `wheel_axis` point to the left of the direction of travel, unless the vehicle starts in reverse",
+            meaning: "Data of a Magic Formula are those of a wheel whose axis points to the left of its direction of travel. The wheel starts in the \
+                opposite direction.",
+            advice: "Reverse `wheel_axis`, and state the side on which the tyre is by `mounted`. A vehicle that starts in reverse is right as it is.",
         }
         /// A tyre carries more than the loads for which it has data.
         TyreBeyondData {

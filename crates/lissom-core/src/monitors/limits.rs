@@ -7,7 +7,7 @@ use crate::kinematics::{GROUND, Kinematics, NodeId, Subject};
 use crate::system::System;
 
 /// Limits that are checked on every accepted step, and the multiple of them that is reported.
-const OF_STEPS: [(LimitKind, f64); 10] = [
+const OF_STEPS: [(LimitKind, f64); 11] = [
     (LimitKind::Deformation, 1.0),
     (LimitKind::Spin, 1.0),
     (LimitKind::Load, 1.0),
@@ -15,6 +15,7 @@ const OF_STEPS: [(LimitKind, f64); 10] = [
     (LimitKind::LeftOut, 1.0),
     (LimitKind::Depth, 1.0),
     (LimitKind::TyreLoad, 1.0),
+    (LimitKind::TyreDeflection, 1.0),
     (LimitKind::TyreRoad, 1.0),
     (LimitKind::Hollow, NOTEWORTHY),
     (LimitKind::Reversal, 1.0),
@@ -23,8 +24,13 @@ const OF_STEPS: [(LimitKind, f64); 10] = [
 /// Largest plausible penetration at the start, as a fraction of the limit: no weight or preload presses parts into each other or into stops.
 pub(super) const OVERLAP: f64 = 0.1;
 /// Limits that are checked at the start of a motion.
-const OF_STARTS: [(LimitKind, f64); 3] =
-    [(LimitKind::Depth, OVERLAP), (LimitKind::Stop, OVERLAP), (LimitKind::Slack, 0.05)];
+const OF_STARTS: [(LimitKind, f64); 5] = [
+    (LimitKind::Depth, OVERLAP),
+    (LimitKind::Stop, OVERLAP),
+    (LimitKind::Slack, 0.05),
+    (LimitKind::Stretch, OVERLAP),
+    (LimitKind::TyreDirection, 1.0),
+];
 
 /// Reports the first value beyond each limit. Has no state.
 struct Limits;
@@ -119,10 +125,16 @@ fn warning(
             let parts = parts(system, element).join("` and `");
             Warning::RopeSlack { time, parts, slack: value, length: limit }
         }
+        LimitKind::Stretch => {
+            let parts = parts(system, element).join("` and `");
+            Warning::RopeStretched { time, parts, stretch: value, length: limit }
+        }
         LimitKind::Reversal => {
             let [base, tip] = [0, nodes.len() - 1].map(|k| name(nodes[k]));
             Warning::SpringThroughZero { time, base, tip }
         }
+        LimitKind::TyreDeflection => Warning::TyreDeflected { time, part: part(), deflection: value, limit },
+        LimitKind::TyreDirection => Warning::TyreRollsBackwards { time, part: part(), speed: value },
         LimitKind::TyreLoad => Warning::TyreBeyondData { time, part: part(), load: value, limit },
         LimitKind::TyreRoad => Warning::RoadBeyondContact { time, part: part(), deviation: value, limit },
         LimitKind::Deformation => Warning::BeyondLinear { time, interface: interface(), largest },

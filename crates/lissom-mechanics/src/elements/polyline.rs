@@ -315,7 +315,7 @@ impl<const N: usize> Measure for Polyline<N> {
         self.frames
     }
 
-    const LIMITS: &'static [LimitKind] = &[LimitKind::Slack, LimitKind::Reversal];
+    const LIMITS: &'static [LimitKind] = &[LimitKind::Slack, LimitKind::Stretch, LimitKind::Reversal];
 
     fn limit(
         &self,
@@ -324,9 +324,8 @@ impl<const N: usize> Measure for Polyline<N> {
         force: &dyn Fn([f64; 2], &Kinematics) -> f64,
     ) -> Option<Limit<'_>> {
         match (kind, &self.frames) {
-            (LimitKind::Slack, None) => {
-                let [_, at] = step;
-                Some(Limit::of_element(-self.read(at).motion[0], self.length.value(at.time)))
+            (LimitKind::Slack | LimitKind::Stretch, None) => {
+                Some(length_of_rope(kind, self, step[1], &self.length))
             }
             (LimitKind::Reversal, Some(ends)) => {
                 let span = |at: &Kinematics| {
@@ -340,4 +339,16 @@ impl<const N: usize> Measure for Polyline<N> {
             _ => None,
         }
     }
+}
+
+/// How much longer or shorter a rope is than the way along its points.
+pub(super) fn length_of_rope<M: Measure>(
+    kind: LimitKind,
+    measure: &M,
+    at: &Kinematics,
+    length: &Function,
+) -> Limit<'static> {
+    let [elongation, _] = M::motion(&measure.read(at));
+    let sign = if kind == LimitKind::Slack { -1.0 } else { 1.0 };
+    Limit::of_element(sign * elongation, length.value(at.time))
 }

@@ -22,7 +22,7 @@ use nalgebra::SMatrix;
 
 use super::kind::Sheave;
 use super::over_measure::{Measure, StageForce};
-use super::polyline::{Point, Polyline};
+use super::polyline::{Point, Polyline, length_of_rope};
 use super::rope::MAX_PLACES;
 use super::{Limit, LimitKind, Place, Tangents, Unknowns, add_block};
 use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
@@ -493,7 +493,7 @@ impl Measure for Reeving {
         self.line.breakpoints()
     }
 
-    const LIMITS: &'static [LimitKind] = &[LimitKind::Slack, LimitKind::Sheave];
+    const LIMITS: &'static [LimitKind] = &[LimitKind::Slack, LimitKind::Stretch, LimitKind::Sheave];
 
     fn limit(
         &self,
@@ -501,11 +501,11 @@ impl Measure for Reeving {
         [_, at]: [&Kinematics; 2],
         force: &dyn Fn([f64; 2], &Kinematics) -> f64,
     ) -> Option<Limit<'_>> {
-        let shape = self.read(at);
-        if kind == LimitKind::Slack {
-            return Some(Limit::of_element(-shape.motion[0], self.line.length.value(at.time)));
+        if kind != LimitKind::Sheave {
+            return Some(length_of_rope(kind, self, at, &self.line.length));
         }
-        if kind != LimitKind::Sheave || force(shape.motion, at) == 0.0 {
+        let shape = self.read(at);
+        if force(shape.motion, at) == 0.0 {
             return None;
         }
         let (index, how) = self.off_sheave(&shape, |own| at.coordinates[own].value)?;

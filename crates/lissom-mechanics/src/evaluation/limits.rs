@@ -23,11 +23,17 @@ pub enum LimitKind {
     Stop,
     /// Length by which a rope is longer than the way along its points, by its length [m].
     Slack,
+    /// Length by which a rope is shorter than the way along its points, by its length [m].
+    Stretch,
     /// How a rope under tension leaves a sheave or drum: not at all.
     Sheave,
     /// Minus the product of the vectors between both ends of a spring at the start and the end of a step, if its force would have a
     /// direction at zero length: positive where that reverses.
     Reversal,
+    /// Deflection of a tyre, by the largest one of usual tyres [m].
+    TyreDeflection,
+    /// Speed of a tyre's wheel against the direction of rolling, in which its data are measured, by a walking pace [m/s].
+    TyreDirection,
     /// Normal force of a tyre, by the largest one of its data [N].
     TyreLoad,
     /// Deviation of a road from a plane within the contact of a tyre, by the largest one that its model resolves [m].

@@ -1,6 +1,7 @@
 //! What shells and solids share as entries: files of meshes, numbers of elements, sets of nodes, expressions of places.
 
 use lissom_mesh::{Mesh, MeshError, MeshedPart, Region};
+use lissom_motion::Vector3;
 
 use crate::expression::Formula;
 use crate::format::keys::{Key, Shape, optional};
@@ -154,6 +155,19 @@ pub(super) fn sets(reader: &Reader<'_, '_>, mesh: &mut MeshedPart) -> Option<()>
         let found = mesh.nodes_in(&region);
         if found.is_empty() {
             return context.fail(entry.node.span, format!("{what} contains no node"), "make it larger");
+        }
+        if let (Region::Near(place), [nearest]) = (&region, &found[..]) {
+            let distance = (mesh.positions[*nearest] - place).norm();
+            let corners = [Vector3::inf, Vector3::sup]
+                .map(|of| mesh.positions.iter().copied().reduce(|a, b| of(&a, &b)));
+            let size = corners[0].zip(corners[1]).map_or(0.0, |(low, high)| (high - low).norm());
+            if distance > size {
+                let message = format!(
+                    "the node nearest to {what} is {distance:.3} m away, and the whole part is only {size:.3} m large"
+                );
+                let help = "positions are in metres, also of a mesh with a `scale`: is it in millimetres?";
+                return context.fail(entry.node.span, message, help);
+            }
         }
         mesh.sets.insert(name.clone(), found);
     }

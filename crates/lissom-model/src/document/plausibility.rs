@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::connections::{Places, part_of};
-use super::{AnalysisKind, Body, Component, Document, NodeReference};
+use super::{AnalysisKind, Body, Component, Document, NodeReference, SignalEntry};
 use lissom_motion::Vector3;
 
 use crate::outputs::entry::{Output, OutputSource};
@@ -33,10 +33,21 @@ const DEGREES: [f64; 8] = [45.0, 90.0, 180.0, 360.0, 720.0, 1080.0, 1800.0, 3600
 
 /// Warns of what is improbable.
 pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places) {
-    let doubts =
-        [units, inertias, joints, degrees, single_nodes, far_sets, balanced, far_points, many_contacts]
-            .into_iter()
-            .flat_map(|find| find(document, places));
+    let doubts = [
+        units,
+        inertias,
+        joints,
+        degrees,
+        single_nodes,
+        far_sets,
+        balanced,
+        far_points,
+        many_contacts,
+        samples,
+        ropes,
+    ]
+    .into_iter()
+    .flat_map(|find| find(document, places));
     for (span, message, help) in doubts {
         context.report(Problem::warning(span, message).help(help));
     }
@@ -254,6 +265,36 @@ fn balanced(document: &Document, _: &Places) -> Vec<Doubt> {
         })
     };
     document.joints.iter().filter_map(doubt).collect()
+}
+
+/// Signals that are sampled once in the whole motion.
+fn samples(document: &Document, _: &Places) -> Vec<Doubt> {
+    let analysis = &document.analysis;
+    let doubt = |entry: &SignalEntry| {
+        let (interval, _) = entry.sampling.filter(|(interval, _)| *interval > analysis.end)?;
+        let message = format!(
+            "signal `{}` is sampled every {interval} s, and the motion ends at {} s",
+            entry.name.value, analysis.end
+        );
+        Some((
+            entry.name.span,
+            message,
+            "write `sample` in seconds: is it in milliseconds or hertz?".to_owned(),
+        ))
+    };
+    document.signals.iter().filter_map(doubt).collect()
+}
+
+/// Ropes that carry nothing however long they become.
+fn ropes(document: &Document, _: &Places) -> Vec<Doubt> {
+    let is_loose = |own: &&Component| {
+        own.kind.value == "rope" && !["stiffness", "force"].iter().any(|key| own.parameters.has(key))
+    };
+    let doubt = |own: &Component| {
+        let message = format!("rope `{}` has no `stiffness`: it carries nothing", own.name.value);
+        (own.name.span, message, "add `stiffness`, E A over the length for a steel rope [N/m]".to_owned())
+    };
+    document.springs.iter().filter(is_loose).map(doubt).collect()
 }
 
 /// Points of outputs that are far from their body, and would be near it in body axes.

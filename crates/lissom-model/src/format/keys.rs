@@ -252,8 +252,8 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Coefficients => Shape::Coefficients,
         ParameterType::HeightField => Shape::HeightField,
     };
-    let Parameter { name, required, unit, summary, default, .. } = *parameter;
-    Key { name, holds, required, unit, summary, default }
+    let Parameter { name, required, unit, summary, default, usual, .. } = *parameter;
+    Key { name, holds, required, unit, summary, default, usual }
 }
 
 /// The key of a port; none if it has no key of its own.
@@ -271,7 +271,7 @@ pub(crate) fn of_port(port: &PortDeclaration) -> Option<Key> {
     };
     let unit = if matches!(holds, Shape::Place | Shape::Places) { "m" } else { "" };
     let PortDeclaration { key: name, required, summary, .. } = *port;
-    Some(Key { name, holds, required, unit, summary, default: None })
+    Some(Key { name, holds, required, unit, summary, default: None, usual: None })
 }
 
 /// Keys of a table.

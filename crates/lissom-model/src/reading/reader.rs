@@ -126,7 +126,10 @@ impl<'c, 'a> Reader<'c, 'a> {
             Shape::Between(least, most) if !(least..=most).contains(&value) => {
                 format!("from {least} to {most}")
             }
-            _ => return Some(Located::new(value, node.span)),
+            _ => {
+                self.warn_of_unusual(key, value, node.span);
+                return Some(Located::new(value, node.span));
+            }
         };
         self.context.fail(
             node.span,
@@ -281,7 +284,12 @@ impl<'c, 'a> Reader<'c, 'a> {
     /// An expression of time and of named quantities.
     pub(crate) fn formula(&self, key: &str) -> Option<Located<Formula>> {
         let node = self.node(key)?;
-        Some(Located::new(self.context.formula(node, &self.words(key))?, node.span))
+        let formula = self.context.formula(node, &self.words(key))?;
+        let number = formula.arguments().is_empty().then(|| formula.with_arguments(&[]).constant()).flatten();
+        if let Some(number) = number {
+            self.warn_of_unusual(key, number, node.span);
+        }
+        Some(Located::new(formula, node.span))
     }
 
     /// The size of a load.
@@ -306,6 +314,20 @@ impl<'c, 'a> Reader<'c, 'a> {
             Size::Signal(formula) => Some((parameter.name, Located::new(formula, node.span))),
             Size::OfTime(_) => None,
         }
+    }
+
+    /// Warns of a number that is likely to be in another unit.
+    pub(crate) fn warn_of_unusual(&self, key: &str, number: f64, span: Span) {
+        let known = self.keys.iter().find(|known| known.name == key);
+        let Some((usual, unit)) = known.and_then(|known| Some((known.usual?, known.unit))) else { return };
+        if !usual.excludes(number) {
+            return;
+        }
+        let [least, most] = usual.range;
+        let range = if least == 0.0 { format!("at most {most}") } else { format!("{least} to {most}") };
+        let message = format!("{} is {number} {unit}, usual is {range}", self.words(key));
+        let help = format!("if it is {}, convert it; otherwise this is no mistake", usual.instead);
+        self.context.report(Problem::warning(span, message.replace(" ,", ",")).label("unusual").help(help));
     }
 
     /// Warns of an angle [rad] that seems to be in degrees.

@@ -46,7 +46,7 @@ use crate::ports::Ports;
 use crate::registry::ParameterType::{
     Choice, Coefficients, Direction, DirectionOr, HeightField, NotNegative, Positive,
 };
-use crate::registry::{ModelAxis, ParameterError, Parameters, optional, required, unitless};
+use crate::registry::{ModelAxis, ParameterError, Parameters, Usual, optional, required, unitless};
 use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
 use crate::wheels::wheel_on_rail::Pose;
@@ -103,7 +103,8 @@ pub const KIND: ElementKind = ElementKind {
             Positive,
             "m",
             "Free radius; default: the one with which it touches the road at the start.",
-        ),
+        )
+        .usual(Usual::new(0.01, 3.0, "in millimetres or inches")),
         unitless(
             "magic_formula",
             Coefficients,
@@ -121,7 +122,8 @@ pub const KIND: ElementKind = ElementKind {
             Positive,
             "N/m",
             "Normal force per deflection; required without `magic_formula`.",
-        ),
+        )
+        .usual(Usual::new(1e3, 1e8, "in N/mm")),
         optional(
             "damping",
             NotNegative,
@@ -139,12 +141,14 @@ pub const KIND: ElementKind = ElementKind {
             "slip_stiffness",
             Positive,
             "Longitudinal force per slip and normal force, at small slip; required without `magic_formula`.",
-        ),
+        )
+        .usual(Usual::new(0.5, 200.0, "in newtons: divide it by the normal force")),
         unitless(
             "cornering_stiffness",
             Positive,
             "Lateral force per slip angle and normal force, at small angles; required without `magic_formula`.",
-        ),
+        )
+        .usual(Usual::new(0.5, 200.0, "in N/rad: divide it by the normal force")),
         unitless(
             "camber_stiffness",
             NotNegative,
@@ -548,20 +552,28 @@ impl Report for Tyre {
 
 impl Validity for Tyre {
     fn limits(&self) -> &'static [LimitKind] {
-        &[LimitKind::TyreLoad, LimitKind::TyreRoad]
+        &[LimitKind::TyreLoad, LimitKind::TyreRoad, LimitKind::TyreDeflection, LimitKind::TyreDirection]
     }
 
     fn limit(&self, kind: LimitKind, [_, at]: [&Kinematics; 2]) -> Option<Limit<'_>> {
         let (motion, touch) = self.value(at);
         let load = touch.normal[2];
+        let footing = || {
+            let pose = Pose::new(&motion.rotation, &motion.position);
+            self.ground.under(&pose, (motion.rotation * self.axis).into())
+        };
         match (kind, &self.law) {
             (LimitKind::TyreLoad, Law::MagicFormula(law)) => {
                 Some(Limit::of_element(load, law.largest_load()))
             }
             (LimitKind::TyreRoad, _) if load > 0.0 => {
-                let pose = Pose::new(&motion.rotation, &motion.position);
-                let bumps = self.ground.under(&pose, (motion.rotation * self.axis).into()).bumps;
-                Some(Limit::of_element(bumps, 0.03 * self.radius))
+                Some(Limit::of_element(footing().bumps, 0.03 * self.radius))
+            }
+            (LimitKind::TyreDeflection, _) => Some(Limit::of_element(touch.normal[0], 0.25 * self.radius)),
+            (LimitKind::TyreDirection, Law::MagicFormula(_)) => {
+                let along = (motion.rotation * self.axis).cross(&Vector3::from(footing().normal));
+                let velocity: Vector3 = motion.twist.fixed_rows::<3>(0).into();
+                Some(Limit::of_element(-along.dot(&(motion.rotation * velocity)), 1.0))
             }
             _ => None,
         }

@@ -1,6 +1,8 @@
 //! Accumulators with a gas.
 
-use super::kind::{HydraulicKind, port};
+use lissom_mechanics::registry::Usual;
+
+use super::kind::{HydraulicKind, PASCALS, port};
 use super::net::Term;
 use crate::format::keys::{Shape, required, unitless};
 
@@ -16,8 +18,10 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
                 Shape::Positive,
                 "m³",
                 "of the gas at the precharge pressure: that of the accumulator",
-            ),
-            required("precharge", Shape::Positive, "Pa", "absolute pressure of the gas without fluid"),
+            )
+            .usual(Usual::new(0.0, 10.0, "in litres")),
+            required("precharge", Shape::Positive, "Pa", "absolute pressure of the gas without fluid")
+                .usual(PASCALS),
             unitless(
                 "exponent",
                 Shape::Between(1.0, 2.0),

@@ -1,6 +1,6 @@
 //! Check valves.
 
-use super::kind::{HydraulicKind, port};
+use super::kind::{HydraulicKind, PASCALS, port};
 use super::orifice::{LAW, of_rated, rated};
 use crate::format::keys::{Shape, optional};
 
@@ -12,7 +12,9 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
     keys: || {
         let mut keys = Vec::from(rated("pressure drop at `rated_flow`, above the opening one"));
         let words = "drop at which it opens";
-        keys.push(optional("opening_pressure", Shape::NotNegative, "Pa", words).or_number(0.0));
+        keys.push(
+            optional("opening_pressure", Shape::NotNegative, "Pa", words).or_number(0.0).usual(PASCALS),
+        );
         keys
     },
     separates_fluids: false,

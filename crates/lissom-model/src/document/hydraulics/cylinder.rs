@@ -3,7 +3,7 @@
 use lissom_mechanics::registry::Value as Held;
 
 use super::fluid::ATMOSPHERE;
-use super::kind::{HydraulicKind, Port, port};
+use super::kind::{DIAMETERS, HydraulicKind, LENGTHS, Port, port};
 use super::net::{Net, Part, Term};
 use crate::format::keys::{Shape, optional, required};
 
@@ -22,15 +22,17 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
     keys: || {
         vec![
             required("joint", Shape::Name("joints"), "", "joint with a displacement"),
-            required("bore", Shape::Positive, "m", "diameter of the piston"),
+            required("bore", Shape::Positive, "m", "diameter of the piston").usual(DIAMETERS),
             optional("rod_diameter", Shape::NotNegative, "m", "diameter of the rod in the chamber `b`")
-                .or_number(0.0),
+                .or_number(0.0)
+                .usual(DIAMETERS),
             optional(
                 "stroke",
                 Shape::Positive,
                 "m",
                 "from stop to stop; without it the cylinder has no stops, and its chambers are no part of the volumes",
-            ),
+            )
+            .usual(LENGTHS),
             optional(
                 "extension",
                 Shape::NotNegative,

@@ -1,8 +1,19 @@
 //! What a kind of hydraulic part declares.
 
+use lissom_mechanics::registry::Usual;
+
 use super::net::{Net, Part};
 use crate::format::keys::Key;
 use crate::outputs::kinds::OutputComponent;
+
+/// Absolute pressures and differences of pressures.
+pub(super) const PASCALS: Usual = Usual::new(1e3, 1e9, "in bar or MPa");
+/// Flows.
+pub(super) const FLOWS: Usual = Usual::new(0.0, 1.0, "in litres per minute");
+/// Diameters.
+pub(super) const DIAMETERS: Usual = Usual::new(1e-4, 3.0, "in millimetres");
+/// Lengths of strokes.
+pub(super) const LENGTHS: Usual = Usual::new(1e-4, 30.0, "in millimetres");
 
 /// A key that names a node.
 pub(super) struct Port {

@@ -1,7 +1,9 @@
 //! Nodes: what has one pressure.
 
+use lissom_mechanics::registry::Usual;
+
 use super::fluid::ATMOSPHERE;
-use super::kind::HydraulicKind;
+use super::kind::{HydraulicKind, PASCALS};
 use crate::format::keys::{Key, Shape, optional, required, unitless};
 use crate::text::report::Located;
 
@@ -30,7 +32,12 @@ pub(super) const VOLUME: HydraulicKind = HydraulicKind {
     keys: || {
         let words = "of the node itself, besides the chambers of cylinders and pipes that end there";
         let start = optional("start", Shape::Positive, "Pa", "absolute pressure at the start");
-        vec![fluid(), required("volume", Shape::Positive, "m³", words), start.or_number(ATMOSPHERE)]
+        let start = start.usual(PASCALS);
+        vec![
+            fluid(),
+            required("volume", Shape::Positive, "m³", words).usual(Usual::new(0.0, 100.0, "in litres")),
+            start.or_number(ATMOSPHERE),
+        ]
     },
     separates_fluids: false,
     components: &[("pressure", "Pa"), ("flow", "m^3/s"), ("power", "W"), ("rate", "Pa/s")],
@@ -47,7 +54,7 @@ pub(super) const PRESSURE: HydraulicKind = HydraulicKind {
     ports: &[],
     keys: || {
         let words = "absolute pressure, a number or an expression; default: that of the atmosphere";
-        vec![fluid(), optional("pressure", Shape::Formula, "Pa", words)]
+        vec![fluid(), optional("pressure", Shape::Formula, "Pa", words).usual(PASCALS)]
     },
     separates_fluids: false,
     components: &[("pressure", "Pa"), ("flow", "m^3/s"), ("power", "W")],
@@ -77,7 +84,7 @@ pub(super) const JUNCTION: HydraulicKind = HydraulicKind {
     keys: || {
         let start =
             optional("start", Shape::Positive, "Pa", "first guess of the absolute pressure at the start");
-        vec![fluid(), start.or_number(ATMOSPHERE)]
+        vec![fluid(), start.or_number(ATMOSPHERE).usual(PASCALS)]
     },
     separates_fluids: false,
     components: &[("pressure", "Pa"), ("flow", "m^3/s"), ("power", "W")],

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::kind::{HydraulicKind, port};
+use lissom_mechanics::registry::Usual;
+
+use super::kind::{FLOWS, HydraulicKind, PASCALS, port};
 use super::net::{Net, Part, Term};
 use crate::format::keys::{Key, Shape, optional, required, unitless};
 
@@ -17,11 +19,13 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
     ports: &[port("a", "node on one side"), port("b", "node on the other side")],
     keys: || {
         vec![
-            optional("area", Shape::Positive, "m²", "of the opening; either it or `rated_flow` is required"),
+            optional("area", Shape::Positive, "m²", "of the opening; either it or `rated_flow` is required")
+                .usual(Usual::new(0.0, 1.0, "in mm²")),
             unitless("discharge", Shape::Between(0.01, 1.0), "discharge coefficient of the area")
                 .or_number(0.7),
-            optional("rated_flow", Shape::Positive, "m³/s", "instead of `area`: flow at `rated_drop`"),
-            optional("rated_drop", Shape::Positive, "Pa", "pressure drop at `rated_flow`"),
+            optional("rated_flow", Shape::Positive, "m³/s", "instead of `area`: flow at `rated_drop`")
+                .usual(FLOWS),
+            optional("rated_drop", Shape::Positive, "Pa", "pressure drop at `rated_flow`").usual(PASCALS),
             unitless(
                 "opening",
                 Shape::Formula,
@@ -45,8 +49,8 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
 /// Keys of what has a rated flow.
 pub(super) fn rated(drop: &'static str) -> [Key; 3] {
     [
-        required("rated_flow", Shape::Positive, "m³/s", "flow at `rated_drop`, fully open"),
-        required("rated_drop", Shape::Positive, "Pa", drop),
+        required("rated_flow", Shape::Positive, "m³/s", "flow at `rated_drop`, fully open").usual(FLOWS),
+        required("rated_drop", Shape::Positive, "Pa", drop).usual(PASCALS),
         optional("transition", Shape::Positive, "Pa", "pressure drop between laminar and turbulent flow")
             .or_number(1e5),
     ]

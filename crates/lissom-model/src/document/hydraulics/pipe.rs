@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::fluid::ATMOSPHERE;
-use super::kind::{HydraulicKind, port};
+use super::kind::{DIAMETERS, HydraulicKind, PASCALS, port};
 use super::net::{Net, Part, Term};
 use crate::format::keys::{Shape, optional, required, unitless};
 
@@ -13,10 +13,11 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
     summary: "Pipe with inertia, compressibility and friction of the fluid, in segments: waves up to about a fifth of the frequency `wave speed/(segment length)` are resolved.",
     ports: &[port("a", "node at one end"), port("b", "node at the other end")],
     keys: || {
-        let start = optional("start", Shape::Positive, "Pa", "absolute pressure in it at the start");
+        let start =
+            optional("start", Shape::Positive, "Pa", "absolute pressure in it at the start").usual(PASCALS);
         vec![
             required("length", Shape::Positive, "m", "length"),
-            required("diameter", Shape::Positive, "m", "inner diameter"),
+            required("diameter", Shape::Positive, "m", "inner diameter").usual(DIAMETERS),
             optional("roughness", Shape::NotNegative, "m", "of the wall").or_number(0.0),
             unitless("segments", Shape::Count(1, 50), "number of segments").or_count(5),
             start.or_number(ATMOSPHERE),

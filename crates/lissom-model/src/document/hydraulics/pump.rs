@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use lissom_mechanics::registry::Usual;
+
 use super::kind::{HydraulicKind, port};
 use super::net::{Net, Part, Term};
 use crate::format::keys::{Shape, optional, required};
@@ -18,7 +20,8 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
                 Shape::Formula,
                 "m³",
                 "volume per revolution, a number or an expression",
-            ),
+            )
+            .usual(Usual::new(0.0, 0.1, "in cm³: divide it by a million")),
             optional(
                 "speed",
                 Shape::Formula,

@@ -1,6 +1,6 @@
 //! Pressure relief valves.
 
-use super::kind::{HydraulicKind, port};
+use super::kind::{FLOWS, HydraulicKind, PASCALS, port};
 use crate::format::keys::{Shape, required};
 
 /// Registry entry.
@@ -13,19 +13,22 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
     ],
     keys: || {
         vec![
-            required("opening_pressure", Shape::Positive, "Pa", "difference at which it opens"),
+            required("opening_pressure", Shape::Positive, "Pa", "difference at which it opens")
+                .usual(PASCALS),
             required(
                 "rated_flow",
                 Shape::Positive,
                 "m³/s",
                 "flow at the difference `opening_pressure + pressure_rise`",
-            ),
+            )
+            .usual(FLOWS),
             required(
                 "pressure_rise",
                 Shape::Positive,
                 "Pa",
                 "rise of the difference from opening to `rated_flow`",
-            ),
+            )
+            .usual(PASCALS),
         ]
     },
     separates_fluids: false,

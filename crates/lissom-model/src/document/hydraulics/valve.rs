@@ -1,5 +1,7 @@
 //! Proportional 4/3 valves.
 
+use lissom_mechanics::registry::Usual;
+
 use super::kind::{HydraulicKind, port};
 use super::net::{Net, Part, Term};
 use super::orifice::{LAW, of_rated, rated};
@@ -16,7 +18,11 @@ pub(super) const KIND: HydraulicKind = HydraulicKind {
         port("b", "node of the second consumer port"),
     ],
     keys: || {
-        let mut keys = vec![required("command", Shape::Formula, "", "opening from -1 to 1, an expression")];
+        let mut keys =
+            vec![
+                required("command", Shape::Formula, "", "opening from -1 to 1, an expression")
+                    .usual(Usual::new(0.0, 1.5, "in per cent")),
+            ];
         keys.extend(rated("pressure drop of one edge at `rated_flow`"));
         let words = "command below which all edges are closed; negative: opening of all edges at command 0";
         keys.push(unitless("overlap", Shape::Between(-0.9, 0.9), words).or_number(0.0));
