@@ -8,11 +8,9 @@
 //! ```
 //!
 //! Solved by Gauss-Seidel iteration with projection on the cones [Moreau 1988, Jean 1999]. Compliances may be singular: forces of
-//! contacts that repeat each other are then not unique, and their motion is.
+//! contacts that repeat each other are then not unique; their motion is without friction.
 
 use nalgebra::{DMatrix, DVector, Vector2};
-
-use super::limit_friction;
 
 /// Iterations, for every relaxation.
 const MAX_SWEEPS: usize = 20_000;
@@ -139,7 +137,8 @@ impl ContactProblem {
                 let own = block.trace().max(f64::MIN_POSITIVE);
                 let sliding = Vector2::from_fn(|k, _| velocity(first + 1 + k, impulses));
                 let tangential = Vector2::new(before[1], before[2]) - relaxation * sliding / own;
-                limit_friction(tangential, largest_friction).0
+                let length = tangential.norm();
+                if length > largest_friction { tangential * (largest_friction / length) } else { tangential }
             } else {
                 Vector2::zeros()
             };

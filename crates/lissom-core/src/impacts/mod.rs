@@ -18,18 +18,11 @@
 pub(crate) mod dense;
 
 use lissom_motion::Vector3;
-use nalgebra::Vector2;
 
 /// Two tangents that are orthogonal to a normal and to each other.
 pub(crate) fn tangents(normal: &Vector3) -> [Vector3; 2] {
     let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
     [first, normal.cross(&first)]
-}
-
-/// Friction within its bound, for a trial that is reduced to the bound if it exceeds it; and the size of the trial.
-pub(crate) fn limit_friction(trial: Vector2<f64>, bound: f64) -> (Vector2<f64>, f64) {
-    let size = trial.norm();
-    (if size > bound { bound * trial / size } else { trial }, size)
 }
 
 /// Search for the share of the rebounds.

@@ -32,7 +32,7 @@ use crate::contact::forms::Meeting;
 use crate::contact::geometry::gap::Matrix3x6;
 use crate::contact::law::Impact;
 use crate::contact::set::{TouchLaw, placed};
-use crate::impacts::{limit_friction, tangents};
+use crate::impacts::tangents;
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, split};
 use crate::system::{Touch, TouchKey};
 
@@ -559,10 +559,10 @@ pub(crate) fn add_friction(pull: [f64; 2], stiffness: f64, bound: f64, state: &m
         state.slips = true;
         return;
     }
-    let (friction, size) = limit_friction(-Vector2::from(pull), bound);
+    let size = (pull[0] * pull[0] + pull[1] * pull[1]).sqrt();
     state.slips = size > bound;
-    state.force.fixed_rows_mut::<2>(0).copy_from(&friction);
     for k in 0..2 {
+        state.force[k] = if state.slips { -bound * pull[k] / size } else { -pull[k] };
         for l in 0..2 {
             let identity = if k == l { 1.0 } else { 0.0 };
             state.slope[(k, l)] = if state.slips {

@@ -48,11 +48,3 @@ fn jumps_of_the_energy_are_not_passed() {
 fn rebounds_that_always_gain_energy_are_none() {
     assert_eq!(search(0.0, [0.0; 2], 7, |_| 1.0), (None, 7));
 }
-
-#[test]
-fn friction_is_limited_along_its_direction() {
-    let (within, size) = limit_friction(Vector2::new(3.0, -4.0), 6.0);
-    assert_eq!((within, size), (Vector2::new(3.0, -4.0), 5.0));
-    let (limited, _) = limit_friction(Vector2::new(3.0, -4.0), 2.5);
-    assert!((limited - Vector2::new(1.5, -2.0)).norm() < 1e-15);
-}
