@@ -585,7 +585,7 @@ impl ConsistentInitialConditions {
     }
 
     /// Accelerations by row `delay` [s] after (or before) the state, for schemes whose history starts there: v̇ + delay v̈, with v̈ from a
-    /// central difference along the motion.
+    /// central difference along the motion, or a difference to one side where the other one has no forces.
     ///
     /// # Errors
     /// If the equations cannot be solved nearby.
@@ -603,13 +603,17 @@ impl ConsistentInitialConditions {
         if delay == 0.0 {
             return Ok(now);
         }
-        let mut difference = vec![0.0; count];
-        for sign in [1.0, -1.0] {
-            let there = self.neighbouring_accelerations(system, &moved(state, sign * delay))?;
-            for (value, acceleration) in difference.iter_mut().zip(&there) {
-                *value += 0.5 * sign * acceleration;
-            }
-        }
+        let mut near = |size: f64| self.neighbouring_accelerations(system, &moved(state, size));
+        let sides = [near(delay)?, near(-delay)?];
+        // Data such as a wind may begin with the motion.
+        let is_finite = sides.each_ref().map(|side| side.iter().all(|value| value.is_finite()));
+        let between = |row: usize| match is_finite {
+            [true, true] => 0.5 * sides[0][row] - 0.5 * sides[1][row],
+            [true, false] => sides[0][row] - now[row],
+            [false, true] => now[row] - sides[1][row],
+            [false, false] => 0.0,
+        };
+        let mut difference: Vec<f64> = (0..count).map(between).collect();
         // Rates of states are in equilibrium already and are not extrapolated.
         let mut compared = now.clone();
         for (row, ..) in layout.states() {

@@ -3,3 +3,4 @@
 mod controlled_forces;
 mod several_stages;
 mod solver_features;
+mod starts;
