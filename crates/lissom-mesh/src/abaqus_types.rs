@@ -40,7 +40,7 @@ pub(crate) fn treatment(name: &str) -> Treatment {
         (&["T3D3"], MeshShape::Line3),
         (&TRIANGLES_6, MeshShape::Triangle6),
         (&QUADRILATERALS_8, MeshShape::Quadrilateral8),
-        (&["S9R5"], MeshShape::Quadrilateral9),
+        (&["S9R5", "M3D9"], MeshShape::Quadrilateral9),
     ];
     let solids = SOLID_KINDS.iter().flat_map(|kind| kind.abaqus.into_iter().zip(kind.shapes));
     if let Some((_, shape)) = read.into_iter().chain(solids).find(|(names, _)| names.contains(&name)) {

@@ -3,7 +3,7 @@
 //! A physical group becomes a set of elements and a set of the nodes that these touch, both with the name of the group.
 //! One without a name is called after its dimension and tag, such as `surface 3`.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::draft::Draft;
 use crate::error::MeshError;
@@ -41,6 +41,8 @@ struct Reader<'a> {
     known: HashMap<Vec<u64>, usize>,
     /// Entity, line and nodes of points.
     touched: Vec<(Tag, usize, Vec<u64>)>,
+    /// Types of elements of which nodes are left out.
+    reduced: BTreeSet<&'static str>,
     /// Names of other sections, with their lines.
     other_sections: BTreeMap<&'a str, usize>,
 }
@@ -272,7 +274,16 @@ impl<'a> Reader<'a> {
             self.touched.push((entity, line, nodes));
             return Ok(());
         };
+        let whole = nodes.len();
         let nodes = in_order_of_abaqus(shape, &nodes);
+        if nodes.len() < whole && self.reduced.insert(kind.name) {
+            let note = format!(
+                "line {line}: a {} is read as one of {}: nodes in the middle of its faces are left out",
+                kind.name,
+                nodes.len()
+            );
+            self.draft.mesh.notes.push(note);
+        }
         let index = if let Some(&index) = self.known.get(&nodes) {
             index
         } else {

@@ -38,7 +38,13 @@ pub(crate) fn element_type(number: u64) -> Option<ElementType> {
         _ => return None,
     };
     let mut solids = SOLID_KINDS.iter().flat_map(|kind| kind.gmsh.into_iter().zip(kind.shapes));
-    let solid = solids.find_map(|(own, shape)| (own == number).then_some(shape));
+    // Of complete elements of second order nodes in the middle of faces and of the element are left out.
+    let read_as = match number {
+        12 => 17,
+        13 => 18,
+        other => other,
+    };
+    let solid = solids.find_map(|(own, shape)| (own == read_as).then_some(shape));
     let shape = surface.or(solid);
     Some(ElementType { name, dimension, node_count, shape })
 }

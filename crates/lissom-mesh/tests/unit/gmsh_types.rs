@@ -20,7 +20,13 @@ fn middle_nodes_are_between_the_corners_of_abaqus() {
 fn shapes_have_as_many_nodes_as_their_types() {
     for element_type in (0..40).filter_map(element_type) {
         if let Some(shape) = element_type.shape {
-            assert_eq!(shape.node_count(), element_type.node_count, "{}", element_type.name);
+            // Nodes in the middle of faces and of the element are left out.
+            let count = match element_type.node_count {
+                27 => 20,
+                18 => 15,
+                other => other,
+            };
+            assert_eq!(shape.node_count(), count, "{}", element_type.name);
             assert_eq!(shape.dimension(), element_type.dimension, "{}", element_type.name);
         }
     }

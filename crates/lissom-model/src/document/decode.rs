@@ -225,13 +225,14 @@ fn check_words(context: &Context<'_>) {
         };
         context.report(Problem::error(Span::default(), message).help(help));
     }
-    // Generalised coordinates move without a part.
+    // Generalised coordinates, states and networks change without a part.
     let is_free = |node: &Node| {
         let kind = node.table().and_then(|joint| joint.get("kind"));
         kind.is_some_and(|kind| matches!(&kind.node.value, Value::Text(word) if word == FREE.name))
     };
     let has_free = context.entries("joints").into_iter().any(|(_, _, node)| is_free(node));
-    if !has_free && PARTS.iter().all(|table| context.entries(table).is_empty()) {
+    let is_empty = |table: &&str| context.entries(table).is_empty();
+    if !has_free && PARTS.iter().chain(&["states", "hydraulics", "units"]).all(is_empty) {
         let problem = Problem::error(
             Span::default(),
             "the model is empty: it has no beam, shell, solid, body, point mass or superelement",

@@ -143,7 +143,8 @@ fn entries(text: &str) -> Result<BTreeMap<String, (usize, String)>, TyreFileErro
             continue;
         }
         if content.starts_with('[') {
-            is_table = false;
+            // The shape of the section is a table, in some files without a heading.
+            is_table = content.to_ascii_uppercase().starts_with("[SHAPE]");
             continue;
         }
         // Tables begin with their columns in braces and end with the section.

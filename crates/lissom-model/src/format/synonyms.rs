@@ -2,9 +2,10 @@
 
 /// A word of the model file, and other words for it in small letters.
 const OTHERS: &[(&str, &[&str])] = &[
+    ("acceleration", &["accelerometer", "imu"]),
     ("analysis", &["simulation", "settings", "solution"]),
     ("angle", &["drive", "motor", "rotation"]),
-    ("angular_velocity", &["spin", "rotation_speed"]),
+    ("angular_velocity", &["spin", "rotation_speed", "gyro", "gyroscope", "imu"]),
     ("at", &["position", "location", "point", "origin", "pos", "place"]),
     ("axial", &["linear", "translational", "tsda", "spring_damper"]),
     ("axial_friction", &["friction", "coulomb", "coulomb_friction"]),
@@ -58,7 +59,7 @@ const OTHERS: &[(&str, &[&str])] = &[
     ("revolute", &["hinge", "pin", "rotational", "rotary", "continuous", "turning"]),
     ("rolling_contact", &["contact", "wheel"]),
     ("tyre", &["tire", "wheel", "pacejka", "magic_formula"]),
-    ("rope", &["cable", "tendon", "wire", "belt"]),
+    ("rope", &["cable", "tendon", "wire", "belt", "sheave", "pulley", "drum", "winch", "hoist", "reeving"]),
     ("scheme", &["integrator", "method", "algorithm"]),
     ("sections", &["cross_sections", "cross_section", "profiles"]),
     ("section_force", &["normal_force", "axial_force", "shear_force"]),

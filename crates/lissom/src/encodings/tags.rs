@@ -33,6 +33,25 @@ pub(crate) fn tags(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
+/// The text with blanks instead of the contents of comments, which often contain `--`, and of a declaration that does not begin the text:
+/// parsers reject both, and other programs read them. Positions remain the same.
+pub(crate) fn without_comments(mut text: String) -> String {
+    let is_blank = |(at, tag): &(usize, &str)| {
+        tag.starts_with("<!--")
+            || *at > 0 && tag.starts_with("<?xml") && tag[5..].starts_with(char::is_whitespace)
+    };
+    let blanks: Vec<_> =
+        tags(&text).filter(is_blank).map(|(at, tag)| (at, tag.len(), tag.starts_with("<!"))).collect();
+    for (at, length, is_comment) in blanks {
+        // Of `<!--`, of which the end was not found in `tag`, and `-->`; or all of a declaration.
+        let range = if is_comment { at + 4..at + length.max(4) } else { at..at + length + 1 };
+        let blank = text[range.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' });
+        let blank: String = blank.collect();
+        text.replace_range(range, &blank);
+    }
+    text
+}
+
 /// Position of the end of a tag, outside of the values of its attributes.
 fn end_of_tag(tag: &str) -> Option<usize> {
     let mut quote = None;

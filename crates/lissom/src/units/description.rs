@@ -3,7 +3,7 @@
 use lissom_units::{Standard, Variable, VariableType};
 use roxmltree::{Document, Node};
 
-use crate::encodings::tags::too_deep;
+use crate::encodings::tags::{too_deep, without_comments};
 
 /// What is known of a unit.
 #[derive(Clone, Debug)]
@@ -63,6 +63,7 @@ const MAX_INDICATORS: usize = 2000;
 impl Description {
     /// Reads a description.
     pub(super) fn read(text: &str) -> Result<Self, String> {
+        let text = &without_comments(text.to_owned());
         if too_deep(text).is_some() {
             return Err("its description has too many elements one in the other".to_owned());
         }

@@ -2,7 +2,8 @@
 //! supported.
 
 use lissom::exchange::import::{
-    Freedom, Options, Pose, Robot, RobotJoint, Root, Unsupported, from_description, from_file, model_text,
+    Freedom, Options, Pose, Robot, RobotJoint, Root, Unsupported, VisualShape, from_description, from_file,
+    model_text,
 };
 use lissom_motion::Vector3;
 
@@ -397,7 +398,6 @@ fn faults_and_what_is_not_supported_are_named() {
             model("<link name='a'/><joint name='j' type='fixed'><parent>a</parent><child>c</child></joint>"),
             "there is no frame `c`",
         ),
-        (arm("type='revolute'>"), "it has no <axis>"),
         (arm("type='hinge'><axis/>"), "its type `hinge` is unknown"),
         (arm("type='revolute'><axis><xyz>0 0 0</xyz></axis>"), "no direction"),
         (
@@ -441,6 +441,27 @@ fn faults_and_what_is_not_supported_are_named() {
         let found = rejected(&text);
         assert!(found.contains(words), "{text}\n{found}");
     }
+}
+
+/// Comments with two hyphens, a declaration behind one, axes that are z, friction without a limit, and shapes that only draw.
+#[test]
+fn what_other_programs_read_is_read() {
+    let text = format!(
+        "<!-- ran with --verbose -- ä\n --><?xml version='1.0'?><sdf version='1.9'><model name='m'><link name='a'>{MASS}\
+         <visual name='v'><geometry><sphere><radius>-1</radius></sphere></geometry></visual>\
+         <collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry>\
+         <surface><friction><ode><mu>-1</mu></ode></friction></surface></collision></link>\
+         <joint name='j' type='revolute'><parent>world</parent><child>a</child></joint></model></sdf>"
+    );
+    let robot = from_description(&text).unwrap();
+    is_near(&joint(&robot, "j").axis, [0.0, 0.0, 1.0]);
+    assert!(robot.left_out.iter().any(|own| own.contains("must be positive")), "{:?}", robot.left_out);
+    let text = "<robot name='r'><link name='a'><visual><geometry><mesh filename='a.obj' scale='.5'/></geometry></visual>\
+        <visual><geometry><box size='1 two 3'/></geometry></visual></link></robot>";
+    let robot = from_description(text).unwrap();
+    let VisualShape::Mesh { scale, .. } = &robot.links[0].visuals[0].shape else { panic!("{robot:?}") };
+    is_near(scale, [0.5; 3]);
+    assert!(robot.obstacles.is_empty() && robot.left_out.len() == 1, "{:?}", robot.left_out);
 }
 
 #[test]

@@ -30,6 +30,7 @@ pub fn from_file(path: &Path) -> Result<Robot, ImportError> {
 /// # Errors
 /// If it is none of these, or its structure is not that of a robot.
 pub fn from_description(text: &str) -> Result<Robot, ImportError> {
+    let text = &xml::without_comments(text.to_owned());
     match xml::root_tag(text)?.as_str() {
         "robot" => from_urdf(text),
         "mujoco" => from_mjcf(text),

@@ -29,6 +29,7 @@ pub(super) fn with_included(path: &Path) -> Result<String, ImportError> {
 
 fn read(path: &Path) -> Result<String, ImportError> {
     let text = files::read_input_text(path).map_err(|error| ImportError::new(error.to_string()))?;
+    let text = xml::without_comments(text);
     if xml::too_deep(&text).is_some() { Ok(text) } else { Ok(xml::with_prefixes(text)) }
 }
 

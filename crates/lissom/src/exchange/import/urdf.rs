@@ -176,22 +176,16 @@ pub(super) fn fixed_axes([roll, pitch, yaw]: [f64; 3]) -> Rotation {
 /// A link; what is wrong with it becomes an obstacle.
 fn link<'a>(node: Node<'a, 'a>, colours: &Colours<'a>, notes: &mut Notes) -> Result<Link, ImportError> {
     let name = name(node)?;
-    let mut keep = |error: ImportError| notes.obstacles.push(error.message);
-    let mut shapes = |tag: &'static str| -> Vec<Visual> {
+    let shapes = |tag: &'static str, faults: &mut Vec<String>| -> Vec<Visual> {
+        let read = |own| visual(own, &name, colours);
         children(node, tag)
-            .filter_map(|own| {
-                visual(own, &name, colours).unwrap_or_else(|error| {
-                    keep(error);
-                    None
-                })
-            })
+            .filter_map(|own| read(own).map_err(|error| faults.push(error.message)).ok()?)
             .collect()
     };
-    let (visuals, collisions) = (shapes("visual"), shapes("collision"));
-    let inertia = inertia(node, &name).unwrap_or_else(|error| {
-        keep(error);
-        None
-    });
+    // What only draws is no reason to read nothing.
+    let visuals = shapes("visual", &mut notes.left_out);
+    let collisions = shapes("collision", &mut notes.obstacles);
+    let inertia = inertia(node, &name).map_err(|error| notes.obstacles.push(error.message)).ok().flatten();
     Ok(Link { visuals, collisions, ..Link::new(name, inertia, notes.lines.location(node)) })
 }
 
@@ -234,7 +228,14 @@ fn visual<'a>(node: Node<'a, 'a>, link: &str, colours: &Colours<'a>) -> Result<O
     } else if let Some(node) = child(geometry, "sphere") {
         VisualShape::Sphere(required(node, "radius")?)
     } else if let Some(node) = child(geometry, "mesh") {
-        let scale = numbers::<3>(node, "scale")?.map_or(Vector3::repeat(1.0), Vector3::from);
+        // One number is that of all directions.
+        let of_all = node
+            .attribute("scale")
+            .and_then(|text| text.trim().parse().ok().filter(|own: &f64| own.is_finite()));
+        let scale = match of_all {
+            Some(factor) => Vector3::repeat(factor),
+            None => numbers::<3>(node, "scale")?.map_or(Vector3::repeat(1.0), Vector3::from),
+        };
         let name = node.attribute("filename").unwrap_or_default().to_owned();
         VisualShape::Mesh { name, scale, path: None }
     } else {

@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 
 use super::ImportError;
 use crate::encodings::tags::tags;
-pub(super) use crate::encodings::tags::{MAX_DEPTH, too_deep};
+pub(super) use crate::encodings::tags::{MAX_DEPTH, too_deep, without_comments};
 
 /// Parses a text.
 ///

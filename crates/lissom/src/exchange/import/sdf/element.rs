@@ -225,7 +225,7 @@ impl Element {
             self.fault(message)
         })?;
         let own = path.parent().unwrap_or(folder);
-        let text = files::read_input_text(&path).map_err(|error| self.fault(error))?;
+        let text = xml::without_comments(files::read_input_text(&path).map_err(|error| self.fault(error))?);
         let mut root = Self::read(&text, uri)?;
         *count += root.size();
         if *count > MAX_ELEMENTS {

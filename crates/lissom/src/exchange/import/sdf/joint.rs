@@ -52,8 +52,9 @@ pub(super) fn joints(
         ..RobotJoint::new(name, freedom, parent, child, placed.origin)
     };
     let mut along = |tag: &str, name: String, freedom: Freedom| {
-        let axis = element.child(tag).ok_or_else(|| element.fault(format!("it has no <{tag}>")))?;
-        with_axis(of(name, freedom), axis, placed, unsupported)
+        // Without one it is z.
+        let none = Element { tag: tag.to_owned(), source: element.source.clone(), ..Element::default() };
+        with_axis(of(name, freedom), element.child(tag).unwrap_or(&none), placed, unsupported)
     };
     let kind = element.attribute("type").ok_or_else(|| element.fault("it has no `type`"))?;
     let joints = match kind {

@@ -44,7 +44,11 @@ impl Reader<'_> {
         }
         for own in element.children.iter().filter(|child| child.tag == "visual") {
             let read = origin(own).and_then(|origin| shape::shape(own, origin));
-            link.visuals.extend(self.robot.keep(read).flatten());
+            // What only draws is no reason to read nothing.
+            match read {
+                Ok(shape) => link.visuals.extend(shape),
+                Err(error) => self.robot.left_out.push(format!("a <visual>: {}", error.message)),
+            }
         }
         for own in element.children.iter().filter(|child| child.tag == "collision") {
             let read = origin(own).and_then(|origin| shape::shape(own, origin));

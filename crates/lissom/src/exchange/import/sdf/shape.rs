@@ -6,6 +6,8 @@ use super::super::visuals::shade;
 use super::super::{ImportError, Touch, TouchLaw, Visual, VisualShape, from_z};
 use super::element::Element;
 
+/// Coefficient of friction of what does not slide.
+const NO_SLIDING: f64 = 100.0;
 /// Bits of a bitmask without a value.
 const BITS: u32 = 0xffff;
 /// Contents of a surface that are read.
@@ -92,9 +94,8 @@ pub(super) fn touch(element: &Element, group: Option<usize>) -> Result<Option<To
         (None, Some(own)) => own.number("friction", 1.0)?,
         _ => 1.0,
     };
-    if friction < 0.0 {
-        return Err(element.fault(format!("its friction is negative: {friction}")));
-    }
+    // The engine of the format reads a negative coefficient as one without a limit.
+    let friction = if friction < 0.0 { NO_SLIDING } else { friction };
     Ok(Some(Touch {
         masks: [category, collide],
         priority: 0.0,
