@@ -1,6 +1,6 @@
 //! The order in which the tables of a model file are read and checked.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -293,7 +293,7 @@ fn title(context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// A parameter may refer to those above it; one of a part in the same file also to those of enclosing parts.
+/// A parameter may refer to others of the same table; one of a part in the same file also to those of enclosing parts.
 fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
     for (scope, own) in context.scopes.iter().enumerate() {
         if let (Some(parent), parts::Outside::All) = (own.parent, &own.outside) {
@@ -303,7 +303,17 @@ fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
             context.set_parameter(scope, "index", index as f64);
             context.set_parameter(scope, "count", count as f64);
         }
-        for (name, span, node) in &own.parameters {
+        let mut waiting: Vec<_> = own.parameters.iter().collect();
+        let mut unknown: BTreeSet<&str> = waiting.iter().map(|(name, ..)| name.as_str()).collect();
+        unknown.retain(|name| !context.parameters_of(scope).contains_key(*name));
+        while !waiting.is_empty() {
+            let is_ready = |(name, _, node): &&(String, Span, Node)| {
+                let Value::Text(text) = &node.value else { return true };
+                let mut words = text.split(|sign: char| !sign.is_alphanumeric() && sign != '_');
+                words.all(|word| word == name || !unknown.contains(word))
+            };
+            let (name, span, node) = waiting.remove(waiting.iter().position(is_ready).unwrap_or(0));
+            unknown.remove(name.as_str());
             let what = format!("parameter `{name}`");
             if expression::is_reserved(name) {
                 let message = format!("a parameter cannot be called `{name}`");

@@ -17,7 +17,7 @@ const INTRODUCTION: &str = "\
 A model is a TOML file. Units are SI, angles radians, axes right-handed.
 
 - **Numbers.** Wherever a number is expected, a text is accepted: an expression of the `[parameters]`, such as
-  `\"L/2\"`. A parameter may refer to those above it.
+  `\"L/2\"`. A parameter may refer to others.
 - **Expressions** consist of numbers, `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
   `a < b`, `<=`, `>`, `>=` are 1 if true and 0 if false; `if(condition, a, b)` is `b` if the condition is 0.
   `step(x)` is 0 for x < 0 and 1 otherwise; `smoothstep(x)` increases from 0 at 0 to 1 at 1 with continuous second

@@ -32,6 +32,7 @@ impl Robot {
         let [root] = roots[..] else {
             let named: Vec<&str> = roots.iter().map(|&link| links[link].name.as_str()).collect();
             let message = match roots.len() {
+                0 if links.is_empty() => "it has no <link>".to_owned(),
                 0 => "every link is a child of another one: there is no root".to_owned(),
                 _ => format!(
                     "several links have no parent, but only one can be the root: {}",
