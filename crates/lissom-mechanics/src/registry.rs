@@ -251,7 +251,9 @@ impl fmt::Display for DefaultValue {
     /// As in a model file.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Number(number) if *number != 0.0 && number.abs() < 1e-2 => write!(out, "{number:e}"),
+            Self::Number(number) if *number != 0.0 && !(1e-2..1e6).contains(&number.abs()) => {
+                write!(out, "{number:e}")
+            }
             Self::Number(number) => write!(out, "{number}"),
             Self::Flag(flag) => write!(out, "`{flag}`"),
             Self::Word(word) => write!(out, "`\"{word}\"`"),

@@ -324,9 +324,10 @@ impl<'c, 'a> Reader<'c, 'a> {
             return;
         }
         let [least, most] = usual.range;
-        let range = if least == 0.0 { format!("at most {most}") } else { format!("{least} to {most}") };
+        let [low, high] = [least, most].map(|size| DefaultValue::Number(size).to_string());
+        let range = if least == 0.0 { format!("at most {high}") } else { format!("{low} to {high}") };
         let message = format!("{} is {number} {unit}, usual is {range}", self.words(key));
-        let help = format!("if it is {}, convert it; otherwise this is no mistake", usual.instead);
+        let help = format!("convert it if it is {}; otherwise this is no mistake", usual.instead);
         self.context.report(Problem::warning(span, message.replace(" ,", ",")).label("unusual").help(help));
     }
 

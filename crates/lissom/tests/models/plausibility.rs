@@ -60,6 +60,36 @@ fn slips_are_named_with_the_unit_that_is_read() {
 }
 
 /// Whatever the kinds of its joints; an equation may begin to move them later.
+/// Numbers of the fields beside mechanics, each in the unit that is used there.
+#[test]
+fn numbers_in_units_of_the_trade_are_named() {
+    let tank = "[hydraulics.tank]\nkind = \"pressure\"\n[hydraulics.supply]\nkind = \"pressure\"\npressure = 160e5\n";
+    let valve = "[hydraulics.orifice]\nkind = \"orifice\"\na = \"supply\"\nb = \"tank\"\nrated_flow = 5e-4\nrated_drop = 35e5\n";
+    let tyre = "[springs.tyre]\nkind = \"tyre\"\nbase = \"ground\"\ntip = \"bob\"\nnormal = [0, 0, 1]\nwheel_axis = [0, 1, 0]\nat_base = [0, 0, -0.3]\n\
+        radius = 0.31\nstiffness = 2e5\nslip_stiffness = 20\ncornering_stiffness = 15\n";
+    let rope = "[springs.rope]\nkind = \"rope\"\nalong = [{ on = \"ground\", at = [1, 0, 2] }, { on = \"bob\" }]\nstiffness = 1e5\n";
+    let signal = "[signals.sampled]\nvalue = \"hinge.angle\"\nsample = 0.01\n";
+    let model = format!("{PENDULUM}{tank}{valve}{tyre}{rope}{signal}");
+    assert_eq!(warnings(&model), "");
+    for (from, to, words) in [
+        ("160e5", "160", "`pressure` of hydraulic part `supply` is 160 Pa, usual is 1000 to 1e9"),
+        ("rated_flow = 5e-4", "rated_flow = 30", "is 30 m³/s, usual is at most 1"),
+        ("rated_drop = 35e5", "rated_drop = 35", "`rated_drop` of hydraulic part `orifice` is 35 Pa"),
+        ("radius = 0.31", "radius = 310", "`radius` of spring `tyre` is 310 m"),
+        ("stiffness = 2e5", "stiffness = 200", "convert it if it is in N/mm"),
+        (
+            "cornering_stiffness = 15",
+            "cornering_stiffness = 60000",
+            "in N/rad, and not over the normal force",
+        ),
+        ("stiffness = 1e5", "damping = 10", "rope `rope` has no `stiffness`: it carries nothing"),
+        ("sample = 0.01", "sample = 10", "`sampled` is sampled every 10 s, and the motion ends at 1 s"),
+    ] {
+        let found = warnings(&model.replacen(from, to, 1));
+        assert!(found.contains(words), "{words}: {found}");
+    }
+}
+
 #[test]
 fn a_model_without_a_cause_of_motion_is_named() {
     let law =

@@ -142,13 +142,13 @@ pub const KIND: ElementKind = ElementKind {
             Positive,
             "Longitudinal force per slip and normal force, at small slip; required without `magic_formula`.",
         )
-        .usual(Usual::new(0.5, 200.0, "in newtons: divide it by the normal force")),
+        .usual(Usual::new(0.5, 200.0, "in newtons, and not over the normal force")),
         unitless(
             "cornering_stiffness",
             Positive,
             "Lateral force per slip angle and normal force, at small angles; required without `magic_formula`.",
         )
-        .usual(Usual::new(0.5, 200.0, "in N/rad: divide it by the normal force")),
+        .usual(Usual::new(0.5, 200.0, "in N/rad, and not over the normal force")),
         unitless(
             "camber_stiffness",
             NotNegative,
