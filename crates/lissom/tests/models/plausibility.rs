@@ -2,6 +2,7 @@
 
 use lissom::Model;
 
+use crate::support::refused::refused;
 use crate::support::runs::session;
 
 /// A pendulum on the ground, of two bodies.
@@ -203,4 +204,14 @@ fn a_slack_rope_is_named_with_its_slack() {
     };
     assert!(of("18.1").contains("the rope on `a` is slack by 13.100 m"), "{}", of("18.1"));
     assert_eq!(of("5.1"), "");
+    assert!(of("4.0").contains("the rope on `a` is stretched by 1.000 m"), "{}", of("4.0"));
+}
+
+#[test]
+fn a_node_far_from_its_part_is_an_error() {
+    let text = "lissom = 1\n[materials.m]\nE = 1e9\nnu = 0.3\ndensity = 1000\n[solids.part]\nvolume = [\"u\", \"0.5*v\", \"0.2*w\"]\n\
+        divisions = [2, 1, 1]\nmaterial = \"m\"\nsets = { p = { near = [50, 30, 80] } }\n[joints.foot]\nkind = \"clamp\"\n\
+        base = \"ground\"\ntip = \"part.p\"\n[analysis]\nkind = \"statics\"\n";
+    let found = refused(text);
+    assert!(found.contains("the whole part is only 1.136 m large"), "{found}");
 }
