@@ -117,6 +117,7 @@ impl BeamContact {
                 coordinates: vec![CoordinateMotion::default(); STATES],
                 held: vec![0.0],
                 multipliers: Vec::new(),
+                units: Vec::new(),
             },
             tangents: Tangents::new(BRISTLES + STATES),
         });

@@ -7,7 +7,7 @@ pub use lissom_contact as contact;
 pub use lissom_flexible as flexible;
 pub use lissom_mechanics::{
     catalogued, compliance, elements, evaluation, instants, joints, kinematics, law, number, ports, registry,
-    relation, round_off, signals, wheels,
+    relation, round_off, signals, units, wheels,
 };
 pub use lissom_motion as motion;
 pub use lissom_solver::interrupt;

@@ -18,4 +18,5 @@ pub mod registry;
 pub mod relation;
 pub mod round_off;
 pub mod signals;
+pub mod units;
 pub mod wheels;

@@ -545,6 +545,7 @@ impl Builder {
                 coordinates,
                 held,
                 multipliers: if sees_multipliers { vec![0.0; layout.multiplier_count] } else { Vec::new() },
+                units: Vec::new(),
             },
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],

@@ -54,6 +54,7 @@ fn kinematics(numbers: &mut Numbers, count: usize, turn: f64) -> Kinematics {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     }
 }
 

@@ -166,7 +166,7 @@ impl Unit {
                 unsafe {
                     instantiate(
                         name.as_ptr(),
-                        c_int::from(opening.exchange.is_none()),
+                        c_int::from(opening.equations.is_none()),
                         token.as_ptr(),
                         resources.as_ptr(),
                         &raw const *callbacks,
@@ -175,7 +175,7 @@ impl Unit {
                     )
                 }
             }
-            Standard::Fmi3 if opening.exchange.is_some() => {
+            Standard::Fmi3 if opening.equations.is_some() => {
                 type Instantiate = unsafe extern "C" fn(
                     *const c_char,
                     *const c_char,

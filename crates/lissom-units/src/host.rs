@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ffi::{Unit, logged};
 use crate::messages::{
-    Answer, Exchange, Opening, Point, Reply, Request, Variable, VariableType, receive, send,
+    Answer, Equations, Opening, Point, Reply, Request, Variable, VariableType, receive, send,
 };
 
 /// A unit with what is known of its run.
@@ -76,7 +76,7 @@ fn handle(hosted: &mut Option<Hosted>, request: Request, version: &str) -> Resul
         Request::Begin(_) if own.has_begun => Err("the unit has left its start".to_owned()),
         Request::Begin(inputs) => {
             own.set_start(inputs)?;
-            let states = own.opening.exchange.as_ref().map(|exchange| reals(&exchange.states));
+            let states = own.opening.equations.as_ref().map(|equations| reals(&equations.states));
             Ok(Answer::Values(own.unit.get(&states.unwrap_or_else(|| own.opening.outputs.clone()))?))
         }
         Request::Evaluate { group, time, arguments, differentiates } => {
@@ -131,8 +131,8 @@ enum Saved {
 }
 
 /// Value reference of a value of a group: an output, or the derivative of a state.
-fn reference(exchange: &Exchange, outputs: &[Variable], row: usize) -> u32 {
-    outputs.get(row).map_or_else(|| exchange.derivatives[row - outputs.len()], |own| own.reference)
+fn reference(equations: &Equations, outputs: &[Variable], row: usize) -> u32 {
+    outputs.get(row).map_or_else(|| equations.derivatives[row - outputs.len()], |own| own.reference)
 }
 
 /// Real variables of value references.
@@ -173,9 +173,9 @@ impl Hosted {
         arguments: &[f64],
         differentiates: bool,
     ) -> Result<Answer, String> {
-        let exchange = self.opening.exchange.clone().unwrap_or_default();
-        let group = exchange.groups.get(group).ok_or("the unit has no such equations")?;
-        let (states, inputs) = arguments.split_at(exchange.states.len().min(arguments.len()));
+        let equations = self.opening.equations.clone().unwrap_or_default();
+        let group = equations.groups.get(group).ok_or("the unit has no such equations")?;
+        let (states, inputs) = arguments.split_at(equations.states.len().min(arguments.len()));
         let variables: Vec<Variable> = group.inputs.iter().map(|&input| self.opening.inputs[input]).collect();
         let outputs: Vec<Variable> = group.outputs.iter().map(|&own| self.opening.outputs[own]).collect();
         let has_derivatives = group.has_derivatives && self.has_begun;
@@ -186,11 +186,11 @@ impl Hosted {
             own.unit.set(&variables, inputs)?;
             let mut values = own.unit.get(&outputs)?;
             if has_derivatives {
-                values.extend(own.unit.derivatives(exchange.states.len())?);
-                values.extend(own.unit.indicators(exchange.indicators)?);
+                values.extend(own.unit.derivatives(equations.states.len())?);
+                values.extend(own.unit.indicators(equations.indicators)?);
             } else if group.has_derivatives {
                 // Before the end of the initialisation there are none.
-                values.resize(values.len() + exchange.states.len() + exchange.indicators, 0.0);
+                values.resize(values.len() + equations.states.len() + equations.indicators, 0.0);
             }
             Ok::<_, String>(values)
         };
@@ -200,7 +200,7 @@ impl Hosted {
         }
         let mut derivatives = vec![0.0; values.len() * arguments.len()];
         let rows = group.continuous.iter().copied();
-        let of_states = outputs.len()..outputs.len() + exchange.states.len();
+        let of_states = outputs.len()..outputs.len() + equations.states.len();
         let rows: Vec<usize> = rows.chain(of_states.filter(|_| has_derivatives)).collect();
         let mut set =
             |row: usize, column: usize, value: f64| derivatives[row * arguments.len() + column] = value;
@@ -208,23 +208,23 @@ impl Hosted {
             // An output that is a state is no unknown of the structure.
             let state_of = |row: &usize| {
                 let own = outputs.get(*row)?.reference;
-                exchange.states.iter().position(|state| *state == own)
+                equations.states.iter().position(|state| *state == own)
             };
             for (&row, state) in rows.iter().filter_map(|row| Some((row, state_of(row)?))) {
                 set(row, state, 1.0);
             }
             let rows: Vec<usize> = rows.into_iter().filter(|row| state_of(row).is_none()).collect();
-            let unknowns: Vec<u32> = rows.iter().map(|&row| reference(&exchange, &outputs, row)).collect();
-            let knowns = exchange.states.iter().copied().chain(variables.iter().map(|own| own.reference));
+            let unknowns: Vec<u32> = rows.iter().map(|&row| reference(&equations, &outputs, row)).collect();
+            let knowns = equations.states.iter().copied().chain(variables.iter().map(|own| own.reference));
             for (column, known) in knowns.enumerate().filter(|_| !unknowns.is_empty()) {
                 let found = self.unit.directional(&unknowns, known)?;
                 rows.iter().zip(found).for_each(|(&row, value)| set(row, column, value));
             }
             return Ok(Answer::Evaluated { values, derivatives });
         }
-        let nominals = exchange.nominals[..states.len()].iter().copied();
+        let nominals = equations.nominals[..states.len()].iter().copied();
         let nominals =
-            nominals.chain(group.inputs.iter().map(|&input| exchange.nominals[states.len() + input]));
+            nominals.chain(group.inputs.iter().map(|&input| equations.nominals[states.len() + input]));
         for (column, nominal) in nominals.enumerate() {
             let mut beside = arguments.to_vec();
             // A forward difference, whose increment balances curvature and round-off.
@@ -261,7 +261,7 @@ impl Hosted {
         if self.has_begun {
             return Ok(());
         }
-        if self.opening.exchange.is_some() {
+        if self.opening.equations.is_some() {
             let point = Point { time: self.opening.start, states: Vec::new(), inputs: self.start.clone() };
             self.unit.event(&point, true)?;
         } else {

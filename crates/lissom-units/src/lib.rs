@@ -8,5 +8,5 @@ mod messages;
 pub use ffi::end_group;
 pub use host::serve;
 pub use messages::{
-    Answer, Exchange, Group, Opening, Point, Reply, Request, Standard, Variable, VariableType, receive, send,
+    Answer, Equations, Group, Opening, Point, Reply, Request, Standard, Variable, VariableType, receive, send,
 };

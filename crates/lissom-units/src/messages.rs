@@ -60,14 +60,14 @@ pub struct Opening {
     /// Whether the state of the unit can be stored.
     pub saves: bool,
     /// For model exchange.
-    pub exchange: Option<Exchange>,
+    pub equations: Option<Equations>,
     /// Checksum and length of the archive: stored states belong to these equations.
     pub archive: [u64; 2],
 }
 
 /// Equations of a unit for model exchange.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Exchange {
+pub struct Equations {
     /// Value references of the states.
     pub states: Vec<u32>,
     /// Value references of their derivatives.

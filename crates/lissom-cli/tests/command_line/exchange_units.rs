@@ -534,6 +534,53 @@ fn snapshots_contain_the_discrete_state() {
     }
 }
 
+/// Takes a step, and appends the bits of all values.
+fn step(session: &mut lissom::Session, bits: &mut Vec<u64>) {
+    session.advance().unwrap();
+    let mut values = Vec::new();
+    session.values(&mut values);
+    bits.extend(values.into_iter().map(f64::to_bits));
+}
+
+#[test]
+fn sessions_of_a_prepared_model_have_units_of_their_own() {
+    for (kind, sizes, unit, torque) in [
+        ("ball", [2, 1], BALL, "ball.y"),
+        ("stairs", [1, 0], STAIRS, "stairs.y"),
+        ("van der pol", [2, 0], VAN_DER_POL, "osc.y"),
+    ] {
+        let folder = folder_with("exchange-sessions", 3, kind, sizes, EXACT);
+        folder.write("model.toml", &model(torque, unit));
+        let model = lissom::Model::read(&folder.path().join("model.toml")).unwrap();
+        let prepared = model.prepare().unwrap();
+        let run = |session: &mut lissom::Session| {
+            let mut bits = Vec::new();
+            while !session.is_finished() {
+                step(session, &mut bits);
+            }
+            bits
+        };
+        let alone = run(&mut prepared.session().unwrap());
+        // In turn, where the second one begins while the first one has run for a while.
+        let (mut first, mut first_bits) = (prepared.session().unwrap(), Vec::new());
+        (0..30).for_each(|_| step(&mut first, &mut first_bits));
+        let (mut second, mut second_bits) = (prepared.session().unwrap(), Vec::new());
+        while !second.is_finished() {
+            if !first.is_finished() {
+                step(&mut first, &mut first_bits);
+            }
+            step(&mut second, &mut second_bits);
+        }
+        assert!(first_bits == alone && second_bits == alone, "{kind}, in turn");
+        // At once.
+        let at_once = std::thread::scope(|scope| {
+            let threads = [(); 2].map(|()| scope.spawn(|| run(&mut prepared.session().unwrap())));
+            threads.map(|thread| thread.join().unwrap())
+        });
+        assert!(at_once.iter().all(|bits| *bits == alone), "{kind}, at once");
+    }
+}
+
 #[test]
 fn events_without_end_are_a_failure() {
     let storm = |pause: &str| {

@@ -113,8 +113,7 @@ impl Simulation {
             },
             events,
             accumulation: Accumulation::default(),
-            units: super::units::AttachedUnits::default(),
-            exchanged: super::ExchangedUnits::default(),
+            units: Vec::new(),
         })
     }
 
@@ -314,6 +313,6 @@ fn begin_motion(
 /// Whether accelerations may jump: with held values or with breakpoints of functions of time.
 fn may_jump(system: &System, state: &State) -> bool {
     let changes = system.functions.iter().any(|(_, function)| !function.is_constant());
-    let has_units = !system.signals().exchanged.is_empty();
+    let has_units = !system.signals().units.is_empty();
     changes || has_units || !state.kinematics.held.is_empty() || !system.breakpoints().is_empty()
 }

@@ -129,7 +129,7 @@ impl Simulation {
             return Ok(self.change_held_values(at)?);
         }
         self.begin_with(at)?;
-        Ok(self.begin_units()?)
+        Ok(self.begin_samples()?)
     }
 
     /// Begins again with the held values of `at`, before the first step.

@@ -9,7 +9,6 @@ pub mod dynamics;
 pub mod equilibrium;
 mod event_detector;
 mod events;
-mod exchange;
 mod held_values;
 pub mod joint_space;
 mod laws;
@@ -23,20 +22,16 @@ mod signal_history;
 mod snapshot;
 pub(crate) mod snapshot_parts;
 mod stops;
-mod unit_samples;
 mod units;
 
 pub use crate::system::Need;
 pub(crate) use arc::ArcControl;
 pub(crate) use event_detector::{EventDetector, EventState};
-pub use exchange::ExchangedUnits;
-pub(crate) use exchange::SavedEquations;
 pub use held_values::InputError;
 pub use newton_trial::NewtonTrial;
 pub use recovery::{Recovered, Recovery};
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use stops::Stops;
-pub use units::{Unit, UnitFault};
 
 use std::sync::Arc;
 
@@ -84,9 +79,7 @@ pub struct Simulation {
     /// Quantities that depend on the whole motion.
     pub(crate) accumulation: Accumulation,
     /// Models of other programs.
-    pub(crate) units: units::AttachedUnits,
-    /// Models of other programs whose equations are part of the system.
-    pub(crate) exchanged: ExchangedUnits,
+    pub(crate) units: Vec<units::RunningUnit>,
     pub(crate) monitors: Monitors,
     pub(crate) report: RunReport,
 }

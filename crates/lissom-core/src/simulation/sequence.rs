@@ -143,7 +143,7 @@ impl Simulation {
         let (now, longest) = (self.now(), self.control.longest());
         let mut stop = Stop { distance: rest, clock: limit, crossing: None, is_last: true };
         let windows = Some(self.end_of_windows()).filter(|end| end.is_finite());
-        let known = windows.into_iter().chain(self.exchanged.next());
+        let known = windows.into_iter().chain(self.next_unit_event());
         let nearest = self.next_sample().into_iter().chain(known).reduce(f64::min);
         let nearest = nearest.filter(|instant| instant - now < rest - instants::tolerance(now, longest));
         if let Some(instant) = nearest {
@@ -214,7 +214,7 @@ impl Simulation {
                 Ok(Verdict::Shorten) => None,
                 Err(error) => Some(error),
             };
-            if let Some(fault) = error.is_some().then(|| self.unit_fault()).flatten() {
+            if let Some(fault) = error.is_some().then(|| self.unit_fault(false)).flatten() {
                 return Err(fault);
             }
             if progress.watch.is_cancelled() {
@@ -231,7 +231,7 @@ impl Simulation {
             };
             if !(may_help && self.control.shorten(size, has_solution)) {
                 let error = progress.failure.take().unwrap_or_else(|| self.too_inaccurate(size));
-                let error = self.take_discarded().unwrap_or(error);
+                let error = self.unit_fault(true).unwrap_or(error);
                 return Err(self.with_cause(error, self.control.has_tried_shortest()));
             }
             progress.report.rejected += 1;

@@ -9,7 +9,8 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use serde::{Deserialize, Serialize};
 
 use super::laws::Magnitudes;
-use super::{EventState, RunReport, SavedEquations};
+use super::units::SavedUnit;
+use super::{EventState, RunReport};
 use crate::diagnostics::diagnostics;
 use crate::integrator::IntegratorHistory;
 use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion, Subject};
@@ -20,9 +21,10 @@ use crate::simulation::Simulation;
 use crate::simulation::signal_history::SignalHistory;
 use crate::simulation::snapshot_parts::Learned;
 use crate::system::{State, Touch};
+use crate::units::Unit;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 30;
+const VERSION: u32 = 31;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,10 +48,7 @@ pub struct Snapshot {
     monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
     history: SignalHistory,
-    /// Samples that units have reached, and their states.
-    units: Vec<(u64, Option<Vec<u8>>)>,
-    /// Events of units with equations, and their states.
-    exchanged: Vec<SavedEquations>,
+    units: Vec<SavedUnit>,
 }
 
 /// State of the integrator: the tangent in use and the memory of the scheme.
@@ -146,7 +145,7 @@ impl From<&State> for StateNumbers {
             accumulated,
             touches,
         } = state;
-        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown } = kinematics;
+        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown, units: _ } = kinematics;
         let of_node = |node: &NodeMotion| {
             let mut numbers = [0.0; 19];
             numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
@@ -173,8 +172,9 @@ impl From<&State> for StateNumbers {
     }
 }
 
-impl From<&StateNumbers> for State {
-    fn from(numbers: &StateNumbers) -> Self {
+impl StateNumbers {
+    /// The state with the running units of a simulation.
+    fn to_state(&self, units: &[Arc<dyn Unit>]) -> State {
         let of_node = |numbers: &[f64; 19]| {
             let vector = Vector3::new(numbers[1], numbers[2], numbers[3]);
             let rotation = Rotation::from(Versor { scalar: numbers[0], vector: (&vector).into() });
@@ -184,26 +184,27 @@ impl From<&StateNumbers> for State {
                 acceleration: Vector6::from_column_slice(&numbers[13..]),
             }
         };
-        Self {
+        State {
             kinematics: Kinematics {
-                time: numbers.time,
-                elapsed: numbers.elapsed,
-                nodes: numbers.nodes.iter().map(of_node).collect(),
-                coordinates: numbers
+                time: self.time,
+                elapsed: self.elapsed,
+                nodes: self.nodes.iter().map(of_node).collect(),
+                coordinates: self
                     .coordinates
                     .iter()
                     .map(|&[value, rate, acceleration]| CoordinateMotion { value, rate, acceleration })
                     .collect(),
-                held: numbers.held.clone(),
-                multipliers: if numbers.shows_multipliers { numbers.multipliers.clone() } else { Vec::new() },
+                held: self.held.clone(),
+                multipliers: if self.shows_multipliers { self.multipliers.clone() } else { Vec::new() },
+                units: units.to_vec(),
             },
-            multipliers: numbers.multipliers.clone(),
-            violations: numbers.violations.clone(),
-            algorithmic: numbers.algorithmic.clone(),
-            time_remainder: numbers.time_remainder,
-            position_remainders: numbers.position_remainders.iter().map(|&place| place.into()).collect(),
-            accumulated: numbers.accumulated.clone(),
-            touches: numbers.touches.clone(),
+            multipliers: self.multipliers.clone(),
+            violations: self.violations.clone(),
+            algorithmic: self.algorithmic.clone(),
+            time_remainder: self.time_remainder,
+            position_remainders: self.position_remainders.iter().map(|&place| place.into()).collect(),
+            accumulated: self.accumulated.clone(),
+            touches: self.touches.clone(),
         }
     }
 }
@@ -233,8 +234,7 @@ impl Simulation {
             monitors: self.monitors.save(),
             learned: self.integrator.work.learned(),
             history: self.stops.history.clone(),
-            units: self.units.save(),
-            exchanged: self.exchanged.save(),
+            units: self.save_units(),
         }
     }
 
@@ -254,19 +254,20 @@ impl Simulation {
                 found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
             });
         }
-        self.restore_units(&from.units, &from.exchanged)?;
+        self.restore_units(&from.units)?;
         let is_read = self.integrator.work.restore(&self.system, &from.learned).is_ok()
             && self.control.restore(&from.control)
             && self.monitors.restore(&from.monitors);
         if !is_read {
             return Err(SnapshotError::Damaged {});
         }
-        self.previous = (&from.states[0]).into();
-        self.state = (&from.states[1]).into();
-        self.origin.kinematics = State::from(&from.origin.0).kinematics;
+        let units = std::mem::take(&mut self.state.kinematics.units);
+        self.previous = from.states[0].to_state(&units);
+        self.state = from.states[1].to_state(&units);
+        self.origin.kinematics = from.origin.0.to_state(&units).kinematics;
         self.origin.velocity_correction = from.origin.1;
         if let Some(initial) = &mut self.held_values {
-            let near = from.near.as_ref().map(State::from);
+            let near = from.near.as_ref().map(|near| near.to_state(&units));
             initial.keep_from(&self.system, near).map_err(|_| SnapshotError::Damaged {})?;
         }
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);

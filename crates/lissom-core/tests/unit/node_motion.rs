@@ -98,6 +98,7 @@ fn agrees(processor: pulp::Arch, count: usize, point_mass: usize, kind: Incremen
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
     let (rates, curvatures, increments) = (list(), list(), [list(), list(), list()]);

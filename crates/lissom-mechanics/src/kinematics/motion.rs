@@ -1,9 +1,12 @@
 //! Motion of nodes and coordinates, in SI. Independent of topology and time step.
 
+use std::sync::Arc;
+
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, axial, skew};
 
 use super::ids::indexed_by;
 use super::{CoordinateId, NodeId};
+use crate::units::Unit;
 
 /// The ground: node 0 of every system, without degrees of freedom.
 pub const GROUND: NodeId = NodeId::new(0);
@@ -166,6 +169,8 @@ pub struct Kinematics {
     pub held: Vec<f64>,
     /// Multipliers for elements whose forces depend on them [N, N m]; empty if there are no such elements.
     pub multipliers: Vec<f64>,
+    /// The running units of the simulation, by which signals are evaluated here; empty before they are started.
+    pub units: Vec<Arc<dyn Unit>>,
 }
 
 impl Kinematics {
@@ -190,6 +195,7 @@ impl Clone for Kinematics {
             coordinates: self.coordinates.clone(),
             held: self.held.clone(),
             multipliers: self.multipliers.clone(),
+            units: self.units.clone(),
         }
     }
 
@@ -200,6 +206,7 @@ impl Clone for Kinematics {
         self.coordinates.clone_from(&from.coordinates);
         self.held.clone_from(&from.held);
         self.multipliers.clone_from(&from.multipliers);
+        self.units.clone_from(&from.units);
     }
 }
 

@@ -120,10 +120,8 @@ impl Graph {
 
     /// Subject of each switch of a signal, in the order of the switches.
     pub fn names_of_switches(&self) -> Vec<Subject> {
-        let sampled_apart = self.signals.iter().filter(|signal| signal.sampling.is_none());
-        let names =
-            |signal: &super::Signal| std::iter::repeat_n(signal.in_words(), signal.function.switch_count());
-        sampled_apart.flat_map(names).collect()
+        let names = |signal: &super::Signal| std::iter::repeat_n(signal.in_words(), signal.switch_count());
+        self.signals.iter().flat_map(names).collect()
     }
 
     /// Appends switching functions, which change their sign where a signal has a kink or a jump, in the order of the
@@ -133,12 +131,12 @@ impl Graph {
             return;
         }
         self.evaluate(at, |values| {
-            let signals = SignalId::enumerate(&self.signals);
-            for (id, signal) in signals.filter(|(_, one)| one.sampling.is_none()) {
+            for (id, signal) in SignalId::enumerate(&self.signals) {
+                let Some(law) = signal.law() else { continue };
                 let mut arguments = [0.0; super::MAX_ARGUMENTS];
                 self.gather(signal, at, values, &mut arguments);
                 let arguments = &arguments[..signal.arguments.len()];
-                signal.function.switches(at.time, arguments, self.sides(id, at), out);
+                law.switches(at.time, arguments, self.sides(id, at), out);
             }
         });
     }

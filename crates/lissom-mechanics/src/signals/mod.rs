@@ -13,11 +13,11 @@
 pub mod coordinate;
 pub mod delay;
 pub mod event;
-pub mod exchange;
 pub mod failure;
 pub mod frame_quantity;
 pub mod measurement;
 mod moving_frame;
+pub mod unit_ports;
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -27,6 +27,7 @@ use crate::instants;
 use crate::kinematics::{Kinematics, Subject, Switch, indexed_by};
 use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw};
 use measurement::Component;
+use unit_ports::{UnitPorts, UnitValue};
 
 pub use moving_frame::MovingFrame;
 
@@ -107,19 +108,13 @@ pub struct Sampling {
     pub period: f64,
 }
 
-/// Held values that are exchanged with a unit: a model of another program.
-#[derive(Clone, Debug, PartialEq)]
-pub struct UnitPorts {
-    /// Name of the unit.
-    pub name: String,
-    /// Time from sample to sample, from the start of the simulation [s].
-    pub period: f64,
-    /// Inputs: samples of signals.
-    pub inputs: Vec<DiscreteValueId>,
-    /// Outputs, which are among the readings.
-    pub outputs: Vec<DiscreteValueId>,
-    /// Names of the outputs.
-    pub output_names: Vec<String>,
+/// How a signal follows from its arguments.
+#[derive(Clone, Debug)]
+pub enum Function {
+    /// A function of the model.
+    Own(Arc<dyn SignalFunction>),
+    /// A value of a unit, which reports its jumps by event indicators. Nothing else is known of it.
+    OfUnit(UnitValue),
 }
 
 /// A signal of a system.
@@ -130,7 +125,7 @@ pub struct Signal {
     /// Expression of the signal, for messages.
     pub text: String,
     /// Function of the signal.
-    pub function: Arc<dyn SignalFunction>,
+    pub function: Function,
     /// Arguments of the function.
     pub arguments: Vec<Argument>,
     /// For a sampled signal.
@@ -147,6 +142,19 @@ impl Signal {
     /// The signal with its expression.
     fn in_words(&self) -> Subject {
         self.subject.clone().called(format!("{} = {}", self.subject, self.text))
+    }
+
+    /// Its function of the model, if it is not sampled.
+    fn law(&self) -> Option<&dyn SignalFunction> {
+        match &self.function {
+            Function::Own(function) if self.sampling.is_none() => Some(&**function),
+            _ => None,
+        }
+    }
+
+    /// Number of kinks and jumps between samples.
+    fn switch_count(&self) -> usize {
+        self.law().map_or(0, SignalFunction::switch_count)
     }
 }
 
@@ -172,10 +180,8 @@ pub struct Graph {
     pub held: Vec<(String, f64)>,
     /// Held values that are quantities of the state at samples.
     pub readings: Vec<DiscreteValueId>,
-    /// Units of other programs that are advanced from sample to sample.
+    /// Units of other programs.
     pub units: Vec<UnitPorts>,
-    /// Units of other programs with equations.
-    pub exchanged: Vec<exchange::ExchangedUnit>,
     /// Delayed signals.
     pub delays: Vec<delay::Delay>,
     /// Events.
@@ -223,7 +229,7 @@ impl Graph {
     /// Periods of sampled signals and units [s].
     fn periods(&self) -> impl Iterator<Item = f64> + '_ {
         let of_signals = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
-        of_signals.chain(self.units.iter().map(|unit| unit.period))
+        of_signals.chain(self.units.iter().filter_map(|unit| unit.sampled().map(|own| own.period)))
     }
 
     /// Calls `with` with the values of all signals at a configuration, continued from the sides of their switches.
@@ -260,8 +266,9 @@ impl Graph {
     }
 
     /// Signals between samples that are no polynomials.
-    fn laws_of_signals(&self) -> impl Iterator<Item = &Signal> {
-        self.signals.iter().filter(|signal| signal.sampling.is_none() && !signal.function.is_polynomial())
+    fn laws_of_signals(&self) -> impl Iterator<Item = (&Signal, &dyn SignalFunction)> {
+        let laws = self.signals.iter().filter_map(|signal| Some((signal, signal.law()?)));
+        laws.filter(|(_, law)| !law.is_polynomial())
     }
 
     /// Passes the laws of signals between samples to `visit`, with their arguments, except for polynomials.
@@ -270,17 +277,17 @@ impl Graph {
             return;
         }
         self.evaluate(at, |values| {
-            for signal in self.laws_of_signals() {
+            for (signal, law) in self.laws_of_signals() {
                 let mut arguments = [0.0; MAX_ARGUMENTS];
                 self.gather(signal, at, values, &mut arguments);
-                visit(&&*signal.function, &arguments[..signal.arguments.len()]);
+                visit(&law, &arguments[..signal.arguments.len()]);
             }
         });
     }
 
     /// Description of each of these laws.
     pub fn names_of_laws(&self) -> Vec<Subject> {
-        self.laws_of_signals().map(Signal::in_words).collect()
+        self.laws_of_signals().map(|(signal, _)| signal.in_words()).collect()
     }
 
     /// Value of a measurement.
@@ -293,7 +300,10 @@ impl Graph {
         let signal = &self.signals[id];
         with_arguments(signal.arguments.len(), |arguments| {
             self.gather(signal, at, values, arguments);
-            signal.function.value(at.time, arguments, sides)
+            match &signal.function {
+                Function::Own(function) => function.value(at.time, arguments, sides),
+                Function::OfUnit(value) => value.value(at, arguments),
+            }
         })
     }
 
@@ -304,8 +314,7 @@ impl Graph {
         self.first_sides.clear();
         for signal in &self.signals {
             self.first_sides.push(values.len());
-            let count = if signal.sampling.is_some() { 0 } else { signal.function.switch_count() };
-            values.resize(values.len() + count, 0.0);
+            values.resize(values.len() + signal.switch_count(), 0.0);
         }
         self.first_sides.push(values.len());
         values
@@ -373,8 +382,11 @@ impl Graph {
                 let (mut arguments, mut gradient) = ([0.0; MAX_ARGUMENTS], [0.0; MAX_ARGUMENTS]);
                 let count = signal.arguments.len();
                 self.gather(signal, at, values, &mut arguments);
-                let sides = self.sides(id, at);
-                signal.function.gradient(at.time, &arguments[..count], sides, &mut gradient[..count]);
+                let (from, out) = (&arguments[..count], &mut gradient[..count]);
+                match &signal.function {
+                    Function::Own(function) => function.gradient(at.time, from, self.sides(id, at), out),
+                    Function::OfUnit(value) => value.gradient(at, from, out),
+                }
                 for (argument, derivative) in signal.arguments.iter().zip(&gradient) {
                     match *argument {
                         Argument::Signal(earlier) => adjoints[earlier.index()] += adjoint * derivative,
@@ -399,7 +411,8 @@ impl Graph {
     /// Known breakpoints of signals between samples [s], their own or those of signals on which they depend.
     pub fn breakpoints_of(&self, roots: impl Iterator<Item = SignalId>) -> Vec<f64> {
         let reached = self.reached_from(roots);
-        reached.iter().flat_map(|&index| self.signals[index].function.breakpoints()).copied().collect()
+        let laws = reached.iter().filter_map(|&index| self.signals[index].law());
+        laws.flat_map(SignalFunction::breakpoints).copied().collect()
     }
 
     /// Signals on which some depend between samples, including themselves.

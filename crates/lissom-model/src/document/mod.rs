@@ -75,7 +75,7 @@ pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, Loca
 pub(crate) use shells::area_arguments;
 pub use shells::{AreaLoad, Layer, Shell};
 pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
-pub use units::{ExchangeGroup, ExchangePorts, UnitEntry, UnitMode};
+pub use units::{UnitEntry, UnitEquations, UnitGroup, UnitMode};
 
 /// A model as it was written, checked.
 ///

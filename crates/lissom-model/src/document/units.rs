@@ -30,7 +30,7 @@ pub struct UnitEntry {
     /// How it is simulated; none for what the unit supports.
     pub mode: Option<UnitMode>,
     /// Equations, for model exchange; none until the unit is read.
-    pub exchange: Option<ExchangePorts>,
+    pub equations: Option<UnitEquations>,
     /// Longest real time of a call of the unit [s].
     pub timeout: f64,
 }
@@ -49,18 +49,18 @@ const MODES: [&str; 2] = ["co_simulation", "model_exchange"];
 
 /// Equations of a unit for model exchange.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ExchangePorts {
+pub struct UnitEquations {
     /// Names of the states, with their usual magnitudes.
     pub states: Vec<(String, f64)>,
     /// Number of event indicators.
     pub indicators: usize,
     /// Values that depend on the same inputs.
-    pub groups: Vec<ExchangeGroup>,
+    pub groups: Vec<UnitGroup>,
 }
 
 /// Values of a unit that depend on the same inputs: outputs, then derivatives of states, then event indicators.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ExchangeGroup {
+pub struct UnitGroup {
     /// Indices of the inputs in the entry.
     pub inputs: Vec<usize>,
     /// Indices of the outputs in the entry.
@@ -78,7 +78,7 @@ impl UnitEntry {
     /// The group of an output, for model exchange.
     pub(crate) fn group_of(&self, output: &str) -> Option<usize> {
         let index = self.outputs.iter().position(|(own, _)| own == output)?;
-        self.exchange.as_ref()?.groups.iter().position(|group| group.outputs.contains(&index))
+        self.equations.as_ref()?.groups.iter().position(|group| group.outputs.contains(&index))
     }
 }
 
@@ -165,7 +165,7 @@ pub(super) fn units(context: &Context<'_>) -> Vec<UnitEntry> {
             parameters,
             sample,
             mode,
-            exchange: None,
+            equations: None,
             timeout: reader.number("timeout")?.value,
         })
     })

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::registry::ParameterError;
-use lissom_mechanics::signals::{Argument, DiscreteValueId, Sampling, Signal, SignalFunction};
+use lissom_mechanics::signals::{Argument, DiscreteValueId, Function, Sampling, Signal, SignalFunction};
 use lissom_system::Builder;
 
 use crate::document::DiscreteFilter;
@@ -47,7 +47,7 @@ pub(super) fn filtered(
     line.push_past(&mut arguments, sampling.held, (filter.denominator.len(), start))?;
     let own = filter.denominator.iter().map(|coefficient| -coefficient);
     let weights = filter.numerator.iter().copied().chain(own).collect();
-    let function = Arc::new(WeightedSum(weights));
+    let function = Function::Own(Arc::new(WeightedSum(weights)));
     Ok(Signal { subject, text, function, arguments, sampling: Some(sampling) })
 }
 
@@ -78,7 +78,7 @@ impl DelayLine<'_> {
             self.builder.add_signal(Signal {
                 text: "a previous sample".to_owned(),
                 subject,
-                function: Arc::new(WeightedSum(vec![1.0])),
+                function: Function::Own(Arc::new(WeightedSum(vec![1.0]))),
                 arguments: vec![Argument::Held(held)],
                 sampling: Some(Sampling { held: older, ..self.sampling }),
             })?;

@@ -7,7 +7,7 @@ use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::registry::{Parameters, Value};
 use lissom_mechanics::signals::coordinate::{Coordinate, Of};
 use lissom_mechanics::signals::event::{Direction, Event};
-use lissom_mechanics::signals::{Argument, Signal, SignalFunction};
+use lissom_mechanics::signals::{Argument, Function, Signal};
 use lissom_system::Builder;
 
 use super::names::Names;
@@ -49,11 +49,11 @@ pub(super) fn add(
     builder.add_of_kind(kind, Attached::to_coordinates([coordinate]), &parameters).map_err(fault)?;
     // A released latch does not engage again, although its coordinate starts from the position at which it was locked.
     let released = builder.add_held(&format!("{name}, released"), 0.0);
-    let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {
+    let becomes = |builder: &mut Builder, line: Line| {
         let signal = Signal {
             subject: Subject::new("joint", name).component("latch"),
             text: String::new(),
-            function,
+            function: Function::Own(Arc::new(line)),
             arguments: vec![Argument::Held(released)],
             sampling: None,
         };
@@ -64,12 +64,12 @@ pub(super) fn add(
         let root = Signal {
             subject: Subject::new("joint", name).component("latch"),
             text: format!("{name} - {}", at.value),
-            function: Arc::new(Line { at_zero: -at.value, slope: 1.0 }),
+            function: Function::Own(Arc::new(Line { at_zero: -at.value, slope: 1.0 })),
             arguments: vec![Argument::Measured(measured)],
             sampling: None,
         };
         let root = builder.add_signal(root).map_err(fault)?;
-        let sets = vec![(engaged, becomes(builder, Arc::new(Line { at_zero: 1.0, slope: -1.0 }))?)];
+        let sets = vec![(engaged, becomes(builder, Line { at_zero: 1.0, slope: -1.0 })?)];
         let event =
             Event { name: format!("{name}, latch"), root, direction: Direction::Both, stops: false, sets };
         builder.add_event(event).map_err(fault)?;
@@ -77,7 +77,7 @@ pub(super) fn add(
     if let Some(release) = &component.release {
         let what = Subject::new("joint", name).component("`release`");
         let root = super::signals::add_formula(document, builder, names, &what, release)?;
-        let constant = |value| Arc::new(Line { at_zero: value, slope: 0.0 });
+        let constant = |value| Line { at_zero: value, slope: 0.0 };
         let sets =
             vec![(engaged, becomes(builder, constant(0.0))?), (released, becomes(builder, constant(1.0))?)];
         let event = Event {

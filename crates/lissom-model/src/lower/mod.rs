@@ -8,7 +8,6 @@ mod delay;
 mod discrete_filter;
 mod distributed;
 mod elastic_solids;
-mod exchange;
 mod latches;
 mod local_loads;
 mod measurements;
@@ -27,6 +26,7 @@ mod signal_references;
 mod signals;
 mod straight_line;
 mod superelements;
+mod units;
 
 use std::sync::Arc;
 

@@ -1,10 +1,8 @@
 //! What expressions of signals name, while the model is lowered.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use lissom_mechanics::kinematics::CoordinateId;
-use lissom_mechanics::signals::exchange::UnitSlot;
 use lissom_mechanics::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
 
 use crate::text::report::Span;
@@ -36,14 +34,14 @@ pub(super) struct SignalReferences {
     /// Outputs that are expressions and are being resolved, each named by the one before.
     pub(super) open_expressions: Vec<String>,
     /// Units with equations.
-    pub(super) exchanged: BTreeMap<String, AddedUnit>,
+    pub(super) units: BTreeMap<String, AddedUnit>,
 }
 
 /// A unit with equations, as far as it is added.
 #[derive(Clone)]
 pub(super) struct AddedUnit {
-    /// Where its running unit is attached.
-    pub(super) slot: Arc<UnitSlot>,
+    /// Its index among all units.
+    pub(super) index: usize,
     /// States.
     pub(super) states: Vec<CoordinateId>,
     /// The states as arguments of its values.

@@ -7,17 +7,17 @@ use lissom_mechanics::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::coordinate::{Coordinate, Of};
 use lissom_mechanics::signals::event::Event;
-use lissom_mechanics::signals::{Argument, Sampling, Signal, SignalId, UnitPorts};
+use lissom_mechanics::signals::{Argument, Function, Sampling, Signal, SignalId};
 use lissom_system::Builder;
 
 use super::delay;
 use super::discrete_filter;
-use super::exchange;
 use super::measurements::{Fault, Measured, measure};
 use super::names::Names;
 use super::order::by_name;
 use super::over_argument::OverArgument;
 use super::signal_references::NamedComponent;
+use super::units;
 use crate::document::{Document, EventEntry, SignalEntry, UnitEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
 use crate::format::suggest;
@@ -37,16 +37,8 @@ pub(super) fn add(
         let held = builder.add_held(&name.value, *value);
         names.signals.insert(name.value.clone(), Argument::Held(held));
     }
-    for unit in by_name(&document.units, |unit| &unit.name.value) {
-        if let Some(ports) = &unit.exchange {
-            exchange::add_states(builder, names, unit, ports);
-            continue;
-        }
-        for (output, _) in &unit.outputs {
-            let name = unit.output_name(output);
-            let held = builder.add_reading(&name);
-            names.signals.insert(name, Argument::Held(held));
-        }
+    for (index, unit) in by_name(&document.units, |unit| &unit.name.value).into_iter().enumerate() {
+        units::declare(builder, names, index, unit);
     }
     let mut states = Vec::new();
     let sorted_states = by_name(&document.states, |state| &state.name.value);
@@ -116,12 +108,7 @@ pub(super) fn add(
         }
     }
     for unit in by_name(&document.units, |unit| &unit.name.value) {
-        let added = if unit.exchange.is_some() {
-            exchange::add_unit(document, builder, names, unit)
-        } else {
-            add_unit(document, builder, names, unit)
-        };
-        if let Err(problem) = added {
+        if let Err(problem) = units::add(document, builder, names, unit) {
             problems.push(problem);
         }
     }
@@ -130,44 +117,6 @@ pub(super) fn add(
             problems.push(problem);
         }
     }
-}
-
-/// Adds a unit with its inputs, which are sampled after all signals.
-fn add_unit(
-    document: &Document,
-    builder: &mut Builder,
-    names: &mut Names,
-    unit: &UnitEntry,
-) -> Result<(), Problem> {
-    let mut inputs = Vec::new();
-    let Some(period) = unit.sample.map(|sample| sample.value) else {
-        let message = format!("the unit `{}` lacks `sample`", unit.name.value);
-        return Err(Problem::error(unit.name.span, message).help("add `sample`, its step in seconds"));
-    };
-    for (variable, expression) in &unit.inputs {
-        let subject =
-            Subject::new("unit", &unit.name.value).component(&format!("`inputs.{}`", variable.value));
-        let reader = Reader { subject: &subject, expression, is_sampled: true, own_sample: None };
-        let (signal, _) = formula(document, builder, names, &reader)?;
-        let held = builder.add_held(&subject.to_string(), 0.0);
-        let sampling = Some(Sampling { held, period });
-        builder
-            .add_signal(Signal { sampling, ..signal })
-            .map_err(|error| Problem::error(expression.span, error.to_string()))?;
-        inputs.push(held);
-    }
-    let held = |output: &String| match names.signals.get(&unit.output_name(output)) {
-        Some(&Argument::Held(held)) => Some(held),
-        _ => None,
-    };
-    builder.add_unit(UnitPorts {
-        name: unit.name.value.clone(),
-        period,
-        inputs,
-        outputs: unit.outputs.iter().filter_map(|(output, _)| held(output)).collect(),
-        output_names: unit.outputs.iter().map(|(output, _)| output.clone()).collect(),
-    });
-    Ok(())
 }
 
 fn add_event(
@@ -297,7 +246,7 @@ pub(super) fn of_entry(
     // The argument of a sampled table is sampled as well: between samples it has no effect.
     let sampling = own.map(|own| Sampling { held: builder.add_held(&subject.to_string(), 0.0), ..own });
     let argument = builder.add_signal(Signal { sampling, ..argument }).map_err(invalid)?;
-    let function = Arc::new(OverArgument::new(table.clone().into(), line));
+    let function = Function::Own(Arc::new(OverArgument::new(table.clone().into(), line)));
     let arguments = vec![Argument::Signal(argument)];
     Ok((Signal { subject: reader.subject.clone(), text, function, arguments, sampling: None }, None))
 }
@@ -328,7 +277,7 @@ pub(super) struct Reader<'a> {
 }
 
 /// An expression as a signal, and the straight line of time that it is.
-fn formula(
+pub(super) fn formula(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
@@ -353,7 +302,7 @@ fn formula(
     let signal = Signal {
         subject: subject.clone(),
         text: expression.value.text().to_owned(),
-        function: Arc::new(function),
+        function: Function::Own(Arc::new(function)),
         arguments,
         sampling: None,
     };
@@ -397,7 +346,7 @@ fn resolve(
     }
     if let Some(unit) = document.units.iter().find(|unit| unit.name.value == owner) {
         if let Some(group) = unit.group_of(component) {
-            exchange::add_group(document, builder, names, (unit, group))?;
+            units::add_group(document, builder, names, (unit, group))?;
             return names.signals.get(&name.text).copied().ok_or_else(|| problem("it is unknown".to_owned()));
         }
         let help = suggest::help(component, unit.outputs.iter().map(|(output, _)| output.as_str()));
@@ -498,7 +447,7 @@ fn output_value(
     match &output.source {
         OutputSource::Signal(name) => {
             if let Some(of_unit) = group_named(document, &name.value) {
-                exchange::add_group(document, builder, names, of_unit)?;
+                units::add_group(document, builder, names, of_unit)?;
             }
             names.signals.get(&name.value).copied().ok_or(None)
         }
@@ -534,7 +483,7 @@ pub(super) fn signals_named<'d>(
     }
     if let Some((unit, group)) = group_named(document, name).filter(|_| !path.contains(&name)) {
         path.push(name);
-        let groups = unit.exchange.iter().map(|ports| &ports.groups[group]);
+        let groups = unit.equations.iter().map(|equations| &equations.groups[group]);
         let inputs = groups.flat_map(|group| &group.inputs).map(|&input| &unit.inputs[input].1.value);
         let arguments = inputs.flat_map(Formula::arguments);
         let found = arguments.flat_map(|argument| signals_named(document, &argument.text, path)).collect();

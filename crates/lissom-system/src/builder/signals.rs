@@ -16,11 +16,11 @@ use lissom_mechanics::kinematics::{
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::delay::{Delay, Past, Piece, window_size};
 use lissom_mechanics::signals::event::Event;
-use lissom_mechanics::signals::exchange::ExchangedUnit;
 use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of::Position};
 use lissom_mechanics::signals::measurement::{Component, Measurement};
+use lissom_mechanics::signals::unit_ports::UnitPorts;
 use lissom_mechanics::signals::{
-    Argument, DiscreteValueId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId, UnitPorts,
+    Argument, DiscreteValueId, Function, MAX_ARGUMENTS, MeasurementId, Signal, SignalId,
 };
 
 impl Builder {
@@ -37,14 +37,9 @@ impl Builder {
         held
     }
 
-    /// Adds a unit of another program; its outputs must have been added as readings.
+    /// Adds a unit of another program after what it is connected to; outputs at samples are readings.
     pub fn add_unit(&mut self, unit: UnitPorts) {
         self.graph.units.push(unit);
-    }
-
-    /// Adds a unit of another program with equations, after its states, inputs and events.
-    pub fn add_exchanged_unit(&mut self, unit: ExchangedUnit) {
-        self.graph.exchanged.push(unit);
     }
 
     /// Number of events.
@@ -132,6 +127,7 @@ impl Builder {
             coordinates: self.model.coordinates.iter().map(coordinate).collect(),
             held: Vec::new(),
             multipliers: Vec::new(),
+            units: Vec::new(),
         }
     }
 
@@ -184,7 +180,7 @@ impl Builder {
         let signal = self.add_signal(Signal {
             subject,
             text: format!("its value {delay} s earlier"),
-            function: Arc::new(Past { delay }),
+            function: Function::Own(Arc::new(Past { delay })),
             arguments: values.into_iter().map(Argument::Held).collect(),
             sampling: None,
         })?;

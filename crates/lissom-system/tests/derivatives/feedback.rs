@@ -8,7 +8,7 @@ use lissom_mechanics::registry::{Constant, ParameterType, Value};
 use lissom_mechanics::signals::coordinate::{self, Coordinate};
 use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of};
 use lissom_mechanics::signals::measurement::Component;
-use lissom_mechanics::signals::{Argument, Sampling, Signal, SignalFunction};
+use lissom_mechanics::signals::{Argument, Function, Sampling, Signal, SignalFunction};
 use lissom_motion::{Motion, Rotation};
 use lissom_system::Builder;
 
@@ -37,7 +37,7 @@ fn signal(arguments: Vec<Argument>, sampling: Option<Sampling>) -> Signal {
     Signal {
         subject: Subject::new("signal", "waves").called("waves"),
         text: "waves".to_owned(),
-        function: Arc::new(Waves),
+        function: Function::Own(Arc::new(Waves)),
         arguments,
         sampling,
     }

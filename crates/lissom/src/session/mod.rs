@@ -25,7 +25,7 @@ use lissom_core::interrupt;
 use lissom_core::settings::StepReport;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
-use lissom_core::simulation::{ExchangedUnits, InputError, Simulation, UnitFault};
+use lissom_core::simulation::{InputError, Simulation};
 use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::document::OutputKind;
@@ -152,7 +152,7 @@ impl Session {
         let began = Instant::now();
         let Lowered {
             system,
-            mut state,
+            state,
             settings,
             plan,
             channels,
@@ -166,25 +166,9 @@ impl Session {
         let origin = state.kinematics.time;
         let warnings = ModelWarnings::of(warnings, &names, (&system, &state.kinematics));
         let schedule = Schedule::new(plan, settings.step_size);
-        let failed = |unit: &str| {
-            let unit = unit.to_owned();
-            |UnitFault { cause, remedy }| InitialError::Unit { unit, cause, remedy }
-        };
-        let graph = system.signals();
-        let (sampled, exchanged) = units.split_at(graph.units.len().min(units.len()));
-        let begun = exchanged.iter().zip(&graph.exchanged);
-        let begun =
-            begun.map(|(unit, ports)| unit.start_equations(origin).map_err(failed(ports.slot.name())));
-        let begun = begun.collect::<Result<_, _>>()?;
-        // Initial accelerations follow from their states.
-        let exchanged = ExchangedUnits::begin(&system, &mut state.kinematics, begun)?;
-        let mut simulation = Simulation::new(system, state, settings)?;
-        simulation.attach_exchanged(exchanged);
+        let started = units.iter().map(|unit| unit.start(origin));
+        let mut simulation = Simulation::with_units(system, state, settings, started)?;
         simulation.accumulate(accumulated);
-        let begun = sampled.iter().zip(&simulation.system().signals().units);
-        let begun = begun.map(|(unit, ports)| unit.start(origin).map_err(failed(&ports.name)));
-        let begun: Vec<_> = begun.collect::<Result<_, _>>()?;
-        simulation.attach_units(begun)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
         let mut timings = Timings::new();
         timings.start = began.elapsed();

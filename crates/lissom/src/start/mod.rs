@@ -148,8 +148,7 @@ fn lower_of(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
     warnings.extend(doubt);
     warnings.extend(immobile::immobile(document, &system, &state));
     let graph = system.signals();
-    let exchanged = graph.exchanged.iter().map(|unit| unit.slot.name());
-    let units = units::in_order(&read, graph.units.iter().map(|unit| unit.name.as_str()).chain(exchanged));
+    let units = units::in_order(&read, graph.units.iter().map(|unit| unit.name.as_str()));
     let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
     Ok(Lowered {
         system: Arc::new(system),

@@ -1,8 +1,8 @@
 //! Equations of a unit for model exchange, as its description states them: states, and groups of values that depend on the same inputs.
 
 use lissom_model::Problem;
-use lissom_model::document::{ExchangeGroup, ExchangePorts, UnitEntry};
-use lissom_units::{Exchange, Group};
+use lissom_model::document::{UnitEntry, UnitEquations, UnitGroup};
+use lissom_units::{Equations, Group};
 
 use super::description::{Described, Description, Kind};
 
@@ -11,7 +11,7 @@ pub(super) fn of(
     entry: &UnitEntry,
     description: &Description,
     kind: &Kind,
-) -> Result<(ExchangePorts, Exchange), Box<Problem>> {
+) -> Result<(UnitEquations, Equations), Box<Problem>> {
     let unit = &entry.name.value;
     let fail = |message: String, help: &str| Box::new(Problem::error(entry.file.span, message).help(help));
     let variables = &description.variables;
@@ -45,7 +45,7 @@ pub(super) fn of(
         let is_needed = |own: &usize| dependencies.is_none_or(|list| list.contains(&inputs[*own]));
         (0..inputs.len()).filter(is_needed).collect()
     };
-    let mut of_derivatives = ExchangeGroup { has_derivatives: true, ..ExchangeGroup::default() };
+    let mut of_derivatives = UnitGroup { has_derivatives: true, ..UnitGroup::default() };
     if description.indicators > 0 {
         of_derivatives.inputs = needed(None);
     } else {
@@ -68,14 +68,14 @@ pub(super) fn of(
         if let Some((group, _)) = same {
             group.outputs.push(position);
         } else {
-            let group = ExchangeGroup { inputs: own, outputs: vec![position], has_derivatives: false };
+            let group = UnitGroup { inputs: own, outputs: vec![position], has_derivatives: false };
             groups.push((group, is_known));
         }
     }
     let of_process = groups.iter().map(|(group, is_known)| {
         let is_continuous = |&(_, &output): &(usize, &usize)| variables[outputs[output]].is_continuous;
         let continuous = group.outputs.iter().enumerate().filter(is_continuous).map(|(row, _)| row).collect();
-        let ExchangeGroup { inputs, outputs, has_derivatives } = group.clone();
+        let UnitGroup { inputs, outputs, has_derivatives } = group.clone();
         Group {
             inputs,
             outputs,
@@ -84,7 +84,7 @@ pub(super) fn of(
             differentiates: *is_known && kind.differentiates,
         }
     });
-    let exchange = Exchange {
+    let equations = Equations {
         states: states.iter().map(|state| state.reference).collect(),
         derivatives: description.derivatives.iter().map(|(index, _)| variables[*index].reference).collect(),
         indicators: description.indicators,
@@ -98,5 +98,5 @@ pub(super) fn of(
     };
     let states = states.iter().map(|state| (state.name.clone(), state.nominal)).collect();
     let groups = groups.into_iter().map(|(group, _)| group).collect();
-    Ok((ExchangePorts { states, indicators: description.indicators, groups }, exchange))
+    Ok((UnitEquations { states, indicators: description.indicators, groups }, equations))
 }

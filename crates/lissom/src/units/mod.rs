@@ -2,6 +2,7 @@
 
 mod description;
 mod equations;
+mod evaluations;
 mod process;
 
 use std::borrow::Cow;
@@ -12,9 +13,8 @@ use std::sync::{Arc, Once};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use flate2::Crc;
-use lissom_core::signals::exchange::UnitEquations;
-use lissom_core::simulation::{Unit, UnitFault};
-use lissom_model::document::{ExchangePorts, UnitEntry, UnitMode};
+use lissom_core::units::{Unit, UnitFault};
+use lissom_model::document::{UnitEntry, UnitEquations, UnitMode};
 use lissom_model::{Document, Located, Problem, Report, Span, files, suggestion};
 use lissom_units::{Opening, Variable};
 
@@ -52,10 +52,10 @@ pub(crate) fn read(document: &Document) -> Result<(Cow<'_, Document>, Vec<ReadUn
     let (mut units, mut problems) = (Vec::new(), Vec::new());
     for (index, entry) in document.units.iter().enumerate() {
         match read_one(entry) {
-            Ok((unit, exchange)) => {
+            Ok((unit, equations)) => {
                 units.push(unit);
-                if exchange.is_some() {
-                    with_equations.to_mut().units[index].exchange = exchange;
+                if equations.is_some() {
+                    with_equations.to_mut().units[index].equations = equations;
                 }
             }
             Err(problem) => problems.push(*problem),
@@ -69,7 +69,7 @@ pub(crate) fn in_order<'n>(units: &[ReadUnit], names: impl Iterator<Item = &'n s
     names.filter_map(|name| units.iter().find(|unit| unit.opening.name == name).cloned()).collect()
 }
 
-fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<ExchangePorts>), Box<Problem>> {
+fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<UnitEquations>), Box<Problem>> {
     let name = &entry.name.value;
     let (path, span) = (&entry.file.value, entry.file.span);
     let fail = |message: String, help: &str| Box::new(Problem::error(span, message).help(help));
@@ -140,7 +140,7 @@ fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<ExchangePorts>), Box<
         UnitMode::CoSimulation => None,
         UnitMode::ModelExchange => Some(equations::of(entry, &description, kind)?),
     };
-    let (ports, exchange) = equations.unzip();
+    let (for_model, equations) = equations.unzip();
     let opening = Opening {
         version: crate::VERSION.to_owned(),
         standard: description.standard,
@@ -153,20 +153,20 @@ fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<ExchangePorts>), Box<
         inputs,
         outputs,
         saves,
-        exchange,
+        equations,
         archive: digest(&archive),
     };
     let timeout = Duration::try_from_secs_f64(entry.timeout).unwrap_or(Duration::MAX);
     let timeout = timeout.max(Duration::from_millis(1));
-    Ok((ReadUnit { archive: archive.into(), binaries, opening, timeout }, ports))
+    Ok((ReadUnit { archive: archive.into(), binaries, opening, timeout }, for_model))
 }
 
 /// How a unit is simulated: as requested, or as it supports.
 fn mode_of<'d>(entry: &UnitEntry, description: &'d Description) -> Result<(UnitMode, &'d Kind), String> {
     let co_simulation = description.co_simulation.as_ref().map(|kind| (UnitMode::CoSimulation, kind));
-    let exchange = description.model_exchange.as_ref().map(|kind| (UnitMode::ModelExchange, kind));
+    let model_exchange = description.model_exchange.as_ref().map(|kind| (UnitMode::ModelExchange, kind));
     match entry.mode {
-        None => co_simulation.or(exchange).ok_or_else(|| {
+        None => co_simulation.or(model_exchange).ok_or_else(|| {
             let message = "its description has neither `CoSimulation` nor `ModelExchange`; it supports scheduled execution only";
             format!("{message} (a class of PythonFMU3 needs the base `CoSimulation`)")
         }),
@@ -174,7 +174,7 @@ fn mode_of<'d>(entry: &UnitEntry, description: &'d Description) -> Result<(UnitM
             co_simulation.ok_or_else(|| "it does not support co-simulation".to_owned())
         }
         Some(UnitMode::ModelExchange) => {
-            exchange.ok_or_else(|| "it does not support model exchange".to_owned())
+            model_exchange.ok_or_else(|| "it does not support model exchange".to_owned())
         }
     }
 }
@@ -245,17 +245,8 @@ impl Variables<'_> {
 }
 
 impl ReadUnit {
-    /// Starts a unit for co-simulation in a process, at the time `start` [s].
-    pub(crate) fn start(&self, start: f64) -> Result<Box<dyn Unit>, UnitFault> {
-        Ok(Box::new(self.process(start)?))
-    }
-
-    /// Starts a unit for model exchange likewise.
-    pub(crate) fn start_equations(&self, start: f64) -> Result<Box<dyn UnitEquations>, UnitFault> {
-        Ok(Box::new(self.process(start)?))
-    }
-
-    fn process(&self, start: f64) -> Result<UnitProcess, UnitFault> {
+    /// Starts a unit in a process, at the time `start` [s].
+    pub(crate) fn start(&self, start: f64) -> Result<Arc<dyn Unit>, UnitFault> {
         let folder = self.unpack().map_err(|reason| UnitFault {
             cause: format!("its files cannot be unpacked: {reason}"),
             remedy: "check the folder of temporary files, TMPDIR, and its free space".to_owned(),
@@ -267,7 +258,7 @@ impl ReadUnit {
             resources: absolute(&self.opening.resources),
             ..self.opening.clone()
         };
-        UnitProcess::start(opening, folder, self.timeout)
+        Ok(Arc::new(UnitProcess::start(opening, folder, self.timeout)?))
     }
 
     /// Writes the files that the unit needs to a new temporary folder, which only this user can read.

@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use lissom_core::interrupt;
-use lissom_core::signals::exchange::{AfterEvent, UnitEquations, UnitPoint, UnitValues};
-use lissom_core::simulation::{Unit, UnitFault};
+use lissom_core::units::{AfterEvent, EvaluationFault, GroupPoint, Unit, UnitFault, UnitPoint, UnitValues};
 use lissom_units::{Answer, Opening, Point, Reply, Request, end_group, receive, send};
+
+use super::evaluations::Evaluations;
 
 #[cfg(unix)]
 type Stream = std::os::unix::net::UnixStream;
@@ -62,16 +63,25 @@ fn host() -> Result<Command, UnitFault> {
     Ok(command)
 }
 
-/// A unit in its process.
+/// A unit in its process, which answers one request after the other.
+#[derive(Debug)]
 pub(super) struct UnitProcess {
-    connection: Mutex<Connection>,
+    running: Mutex<Running>,
     saves: bool,
     /// Whether the unit must be notified of accepted steps.
     completes: bool,
-    /// Number of states with equations.
-    states: usize,
+    /// Number of its states with equations, or of its outputs at samples.
+    values: usize,
 }
 
+#[derive(Debug)]
+struct Running {
+    connection: Connection,
+    evaluations: Evaluations,
+    fault: Option<EvaluationFault>,
+}
+
+#[derive(Debug)]
 struct Connection {
     child: Child,
     /// None after a failure.
@@ -83,6 +93,7 @@ struct Connection {
 }
 
 /// A folder with the files of a unit, removed with this value by the process that made it.
+#[derive(Debug)]
 pub(super) struct UnpackedFolder {
     pub(super) path: PathBuf,
     /// Locked as long as the folder is in use.
@@ -190,8 +201,9 @@ impl UnitProcess {
         timeout: Duration,
     ) -> Result<Self, UnitFault> {
         let saves = opening.saves;
-        let (completes, states) =
-            opening.exchange.as_ref().map_or((false, 0), |own| (own.completes, own.states.len()));
+        let sampled = (false, opening.outputs.len());
+        let (completes, values) =
+            opening.equations.as_ref().map_or(sampled, |own| (own.completes, own.states.len()));
         let mut command = host()?;
         let program = PathBuf::from(command.get_program());
         let failed = |error: io::Error| UnitFault {
@@ -205,27 +217,50 @@ impl UnitProcess {
             Connection { child, stream: Some(stream), written: Arc::default(), timeout, folder };
         connection.collect_errors();
         connection.request(&Request::Open(Box::new(opening)))?;
-        Ok(Self { connection: Mutex::new(connection), saves, completes, states })
+        let running = Running { connection, evaluations: Evaluations::default(), fault: None };
+        Ok(Self { running: Mutex::new(running), saves, completes, values })
     }
 
-    fn request(&self, request: &Request) -> Result<Answer, UnitFault> {
-        self.connection.lock().unwrap_or_else(PoisonError::into_inner).request(request)
+    fn running(&self) -> MutexGuard<'_, Running> {
+        self.running.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn values(&self, request: &Request, out: &mut [f64]) -> Result<(), UnitFault> {
-        match self.request(request)? {
-            Answer::Values(values) if values.len() == out.len() => {
-                out.copy_from_slice(&values);
-                Ok(())
-            }
+    /// Makes a request after which values may differ.
+    fn change(&self, request: &Request) -> Result<Answer, UnitFault> {
+        let mut running = self.running();
+        running.evaluations.clear();
+        running.connection.request(request)
+    }
+
+    fn values(&self, request: &Request) -> Result<Vec<f64>, UnitFault> {
+        match self.change(request)? {
+            Answer::Values(values) if values.len() == self.values => Ok(values),
             _ => Err(unexpected()),
         }
     }
+}
 
-    fn saved(&self) -> Option<Vec<u8>> {
-        match self.saves.then(|| self.request(&Request::Save)) {
-            Some(Ok(Answer::State(state))) => Some(state),
-            _ => None,
+impl Running {
+    /// Evaluates a group.
+    fn evaluate(
+        &mut self,
+        GroupPoint { group, time, arguments }: GroupPoint<'_>,
+        differentiates: bool,
+    ) -> Result<UnitValues, EvaluationFault> {
+        let fails = |fault| EvaluationFault { fails_at: Some(time), fault };
+        let discards = |cause| EvaluationFault { fails_at: None, fault: unusable(cause) };
+        let request = Request::Evaluate { group, time, arguments: arguments.to_vec(), differentiates };
+        match self.connection.request(&request).map_err(fails)? {
+            Answer::Evaluated { values, derivatives }
+                if !differentiates || derivatives.len() == values.len() * arguments.len() =>
+            {
+                if values.iter().chain(&derivatives).all(|value| value.is_finite()) {
+                    return Ok(UnitValues { values, derivatives });
+                }
+                Err(discards(format!("one of its values or derivatives is not finite at t = {time} s")))
+            }
+            Answer::Discarded(cause) => Err(discards(cause)),
+            _ => Err(fails(unexpected())),
         }
     }
 }
@@ -293,8 +328,8 @@ impl Connection {
         };
         let deadline = Instant::now().checked_add(self.timeout);
         let mut link = Link { stream, child: &mut self.child, deadline };
-        let exchanged = send(&mut link, request).and_then(|()| receive::<Reply>(&mut link));
-        let error = match exchanged {
+        let answered = send(&mut link, request).and_then(|()| receive::<Reply>(&mut link));
+        let error = match answered {
             Ok(Reply { answer: Ok(answer), .. }) => return Ok(answer),
             Ok(Reply { answer: Err(error), log }) => {
                 let mut cause = error;
@@ -373,82 +408,59 @@ impl Drop for Connection {
     }
 }
 
-impl Unit for UnitProcess {
-    fn begin(&mut self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), UnitFault> {
-        self.values(&Request::Begin(inputs.to_vec()), outputs)
-    }
-
-    fn advance(
-        &mut self,
-        [from, step]: [f64; 2],
-        inputs: &[f64],
-        outputs: &mut [f64],
-    ) -> Result<(), UnitFault> {
-        self.values(&Request::Advance { from, step, inputs: inputs.to_vec() }, outputs)
-    }
-
-    fn save(&self) -> Option<Vec<u8>> {
-        self.saved()
-    }
-
-    fn restore(&mut self, state: &[u8]) -> Result<(), UnitFault> {
-        self.request(&Request::Restore(state.to_vec())).map(|_| ())
-    }
-}
-
 fn point(at: &UnitPoint) -> Point {
     Point { time: at.time, states: at.states.clone(), inputs: at.inputs.clone() }
 }
 
-impl UnitEquations for UnitProcess {
-    fn begin(&mut self, inputs: &[f64]) -> Result<Vec<f64>, UnitFault> {
-        let mut states = vec![0.0; self.states];
-        self.values(&Request::Begin(inputs.to_vec()), &mut states)?;
-        Ok(states)
+impl Unit for UnitProcess {
+    fn begin(&self, inputs: &[f64]) -> Result<Vec<f64>, UnitFault> {
+        self.values(&Request::Begin(inputs.to_vec()))
     }
 
-    fn evaluate(
-        &mut self,
-        group: usize,
-        time: f64,
-        arguments: &[f64],
-        differentiates: bool,
-    ) -> Result<Result<UnitValues, UnitFault>, UnitFault> {
-        match self.request(&Request::Evaluate {
-            group,
-            time,
-            arguments: arguments.to_vec(),
-            differentiates,
-        })? {
-            Answer::Evaluated { values, derivatives }
-                if !differentiates || derivatives.len() == values.len() * arguments.len() =>
-            {
-                if values.iter().chain(&derivatives).all(|value| value.is_finite()) {
-                    Ok(Ok(UnitValues { values, derivatives }))
-                } else {
-                    Ok(Err(unusable(format!(
-                        "one of its values or derivatives is not finite at t = {time} s"
-                    ))))
-                }
+    fn advance(&self, [from, step]: [f64; 2], inputs: &[f64]) -> Result<Vec<f64>, UnitFault> {
+        self.values(&Request::Advance { from, step, inputs: inputs.to_vec() })
+    }
+
+    fn evaluate(&self, at: GroupPoint<'_>, differentiates: bool) -> Option<Arc<UnitValues>> {
+        let mut running = self.running();
+        let known = running.evaluations.find(at, differentiates);
+        let has_failed = running.fault.as_ref().is_some_and(|fault| fault.fails_at.is_some());
+        if known.is_some() || has_failed || at.arguments.iter().any(|argument| !argument.is_finite()) {
+            return known;
+        }
+        match running.evaluate(at, differentiates) {
+            Ok(found) => {
+                let found = Arc::new(found);
+                running.evaluations.keep(at, &found);
+                Some(found)
             }
-            Answer::Discarded(cause) => Ok(Err(unusable(cause))),
-            _ => Err(unexpected()),
+            Err(fault) => {
+                running.fault = Some(fault);
+                None
+            }
         }
     }
 
-    fn complete(&mut self, at: &UnitPoint) -> Result<bool, UnitFault> {
+    fn fault(&self) -> Option<EvaluationFault> {
+        self.running().fault.clone()
+    }
+
+    fn complete(&self, at: &UnitPoint) -> Result<bool, UnitFault> {
+        let mut running = self.running();
+        // Points of attempts that were not accepted.
+        running.fault.take_if(|fault| fault.fails_at.is_none());
         if !self.completes {
             return Ok(false);
         }
-        match self.request(&Request::Complete(point(at)))? {
+        match running.connection.request(&Request::Complete(point(at)))? {
             Answer::Completed(requests) => Ok(requests),
             _ => Err(unexpected()),
         }
     }
 
-    fn event(&mut self, at: &UnitPoint) -> Result<AfterEvent, UnitFault> {
-        match self.request(&Request::Event(point(at)))? {
-            Answer::Event(states, next) if states.len() == self.states => {
+    fn event(&self, at: &UnitPoint) -> Result<AfterEvent, UnitFault> {
+        match self.change(&Request::Event(point(at)))? {
+            Answer::Event(states, next) if states.len() == self.values => {
                 let is_wrong = states.iter().any(|state| !state.is_finite());
                 let is_past = next.is_some_and(|next| next.is_nan() || next <= at.time);
                 let cause = match (is_wrong, is_past) {
@@ -463,10 +475,13 @@ impl UnitEquations for UnitProcess {
     }
 
     fn save(&self) -> Option<Vec<u8>> {
-        self.saved()
+        match self.saves.then(|| self.running().connection.request(&Request::Save)) {
+            Some(Ok(Answer::State(state))) => Some(state),
+            _ => None,
+        }
     }
 
-    fn restore(&mut self, state: &[u8]) -> Result<(), UnitFault> {
-        self.request(&Request::Restore(state.to_vec())).map(|_| ())
+    fn restore(&self, state: &[u8]) -> Result<(), UnitFault> {
+        self.change(&Request::Restore(state.to_vec())).map(|_| ())
     }
 }

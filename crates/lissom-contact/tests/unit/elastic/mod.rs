@@ -42,6 +42,7 @@ fn contacts_frozen_apart_are_not_evaluated() {
         coordinates: Vec::new(),
         held: vec![-1.0],
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     let evaluate = |at: &Kinematics| {
         let (mut forces, mut tangents) = ([0.0; BRISTLES], Tangents::new(BRISTLES));

@@ -24,6 +24,7 @@ fn unknowns_are_those_of_the_matrices() {
             .to_vec(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     let mut wanted = vec![0.0; 20];
     (wanted[14], wanted[18], wanted[19]) = (0.25, 0.6, 0.2);

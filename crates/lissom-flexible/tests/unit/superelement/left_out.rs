@@ -37,6 +37,7 @@ fn a_sudden_load_on_a_rod_with_linear_shapes_misses_a_quarter_of_its_mass() {
             coordinates: Vec::new(),
             held: Vec::new(),
             multipliers: Vec::new(),
+            units: Vec::new(),
         };
         at.nodes[0].acceleration[0] = of_base;
         at.nodes[1].acceleration[0] = of_base + own;

@@ -37,6 +37,7 @@ fn the_way_of_a_step_is_that_of_all_interfaces() {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     let straight = moving([Vector3::new(-0.6, 0.0, 0.8), Vector3::zeros()]);
     let turning = moving([Vector3::zeros(), Vector3::new(-0.1, 0.0, 0.0)]);
@@ -108,6 +109,7 @@ fn the_remainder_closes_the_change_over_the_step() {
                 coordinates: vec![CoordinateMotion { value, rate: 0.3, acceleration: 0.0 }],
                 held: Vec::new(),
                 multipliers: Vec::new(),
+                units: Vec::new(),
             }
         };
         let (start, end) = (state(0.0, 0.1), state(1.0, 0.1 + size));

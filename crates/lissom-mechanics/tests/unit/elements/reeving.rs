@@ -86,6 +86,7 @@ fn tilted() -> (Reeving, Kinematics) {
         coordinates: vec![coordinate],
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     (reeving, at)
 }

@@ -97,6 +97,7 @@ fn derivatives_of_jets() {
         coordinates: vec![motion(1.3, 0.5), motion(0.4, -0.2)],
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     let (sine, cosine) = 0.4_f64.sin_cos();
     let close = |found: f64, wanted: f64| assert!((found - 2.0 * wanted).abs() < 1e-14, "{found} {wanted}");

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::signals::measurement::{Component, Gradient, MAX_COMPONENTS, Measurement};
-use crate::signals::{MeasurementId, Signal, SignalFunction};
+use crate::signals::{Function, MeasurementId, Signal, SignalFunction};
 
 /// A number, and how often it has been measured.
 struct Counted(f64, AtomicUsize);
@@ -41,7 +41,7 @@ fn events_evaluate_the_signals_of_their_roots_alone() {
     let signal = |argument: Argument| Signal {
         subject: Subject::nameless("a signal"),
         text: String::new(),
-        function: Arc::new(Doubled),
+        function: Function::Own(Arc::new(Doubled)),
         arguments: vec![argument],
         sampling: None,
     };
@@ -61,7 +61,8 @@ fn events_evaluate_the_signals_of_their_roots_alone() {
     };
     let (held, nodes) = (graph.held_at_start(), Vec::new());
     let (coordinates, multipliers) = (Vec::new(), Vec::new());
-    let at = Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates, held, multipliers };
+    let units = Vec::new();
+    let at = Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates, held, multipliers, units };
     let counts = || counted.iter().map(|own| own.1.load(Ordering::Relaxed)).collect::<Vec<_>>();
     let mut found = Vec::new();
     graph.event_values(&at, |value| found.push(value));

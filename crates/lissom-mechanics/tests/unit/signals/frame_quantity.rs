@@ -37,6 +37,7 @@ fn motions() -> Kinematics {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     }
 }
 

@@ -13,7 +13,7 @@ use lissom_mechanics::kinematics::{DiscreteValueId, Subject};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::{Direction, Event};
 use lissom_mechanics::signals::measurement::Component;
-use lissom_mechanics::signals::{Argument, Signal};
+use lissom_mechanics::signals::{Argument, Function, Signal};
 use lissom_system::Builder;
 
 use super::super::names::Names;
@@ -89,7 +89,7 @@ fn touch(
         builder.add_signal(Signal {
             subject: Subject::new("contact", name).component("touch"),
             text: text.to_owned(),
-            function: Arc::new(Line { at_zero: 0.0, slope }),
+            function: Function::Own(Arc::new(Line { at_zero: 0.0, slope })),
             arguments: vec![Argument::Measured(measured)],
             sampling: None,
         })

@@ -7,7 +7,7 @@ use lissom_contact::rigid_friction::{ContactGuard, Guard};
 use lissom_mechanics::kinematics::Subject;
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::{Direction, Event};
-use lissom_mechanics::signals::{Argument, Signal};
+use lissom_mechanics::signals::{Argument, Function, Signal};
 use lissom_system::Builder;
 
 use super::super::names::Names;
@@ -51,7 +51,7 @@ fn guards(contact: &Arc<RigidContact>, builder: &mut Builder) -> Result<(), Para
         let root = builder.add_signal(Signal {
             subject: Subject::new("contact", &contact.name).component(word),
             text: text.to_owned(),
-            function: Arc::new(Line { at_zero: 0.0, slope: 1.0 }),
+            function: Function::Own(Arc::new(Line { at_zero: 0.0, slope: 1.0 })),
             arguments: vec![Argument::Measured(measured)],
             sampling: None,
         })?;

@@ -141,5 +141,6 @@ pub fn at_rest(poses: &[Pose]) -> Kinematics {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     }
 }

@@ -33,6 +33,7 @@ fn point(impact: Impact, exponent: f64, size: f64) -> TouchPoint {
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
+        units: Vec::new(),
     };
     let meetings = set.meetings_of(0, [0, 1]).expect("solids").expect("they touch");
     let (meeting, law) = &meetings[0];
