@@ -36,6 +36,7 @@ mod structure;
 mod subjects;
 mod transform;
 mod verify;
+mod walls;
 mod warnings;
 
 use std::path::PathBuf;

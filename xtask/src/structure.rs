@@ -1,6 +1,5 @@
-//! `cargo xtask structure`: import cycles between files and between folders of a crate, and its numbers of numeric constants and
-//! trait methods. A file imports another one if it names an item that is defined there, also through re-exports; a re-export
-//! alone is no import, and tests do not count.
+//! `cargo xtask structure`: import cycles between files and between folders of a crate, and its numbers of lines and numeric constants. A file
+//! imports another one if it names an item that is defined there, also through re-exports; a re-export alone is no import, and tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -8,6 +7,8 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::Visit;
 use syn::{Item, UseTree, Visibility};
+
+use crate::walls::{MAX_FIELDS, Sizes};
 
 /// Why imports cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -39,11 +40,9 @@ struct Source {
     lines: usize,
     /// Number of named numeric constants: numbers, and vectors of real numbers.
     constants: usize,
-    /// Number of methods of each trait.
-    methods: BTreeMap<String, usize>,
 }
 
-fn is_test(attributes: &[syn::Attribute]) -> bool {
+pub(crate) fn is_test(attributes: &[syn::Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         attribute.path().is_ident("cfg")
             && attribute.parse_args::<syn::Ident>().is_ok_and(|condition| condition == "test")
@@ -152,12 +151,6 @@ impl<'ast> Visit<'ast> for Source {
     fn visit_impl_item_const(&mut self, item: &'ast syn::ImplItemConst) {
         self.count_constant(&item.ty);
         syn::visit::visit_impl_item_const(self, item);
-    }
-
-    fn visit_item_trait(&mut self, item: &'ast syn::ItemTrait) {
-        let methods = item.items.iter().filter(|own| matches!(own, syn::TraitItem::Fn(_))).count();
-        self.methods.insert(item.ident.to_string(), methods);
-        syn::visit::visit_item_trait(self, item);
     }
 
     fn visit_macro(&mut self, own: &'ast syn::Macro) {
@@ -338,14 +331,6 @@ pub(crate) fn constants(root: &Path) -> Result<usize, StructureError> {
     Ok(Crate::read(root)?.sources.values().map(|source| source.constants).sum())
 }
 
-/// Number of methods of its traits, by name.
-///
-/// # Errors
-/// If a file cannot be read or is no Rust.
-pub(crate) fn methods(root: &Path) -> Result<BTreeMap<String, usize>, StructureError> {
-    Ok(Crate::read(root)?.sources.into_values().flat_map(|source| source.methods).collect())
-}
-
 fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     let reach: BTreeMap<&Module, BTreeSet<Module>> =
         edges.keys().map(|module| (module, reached(edges, module))).collect();
@@ -362,7 +347,7 @@ fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     cycles
 }
 
-/// Prints the cycles of a crate, and its numbers of lines, constants and trait methods.
+/// Prints the cycles of a crate, its numbers of lines and constants, and the sizes of its traits and structs.
 ///
 /// # Errors
 /// If a file cannot be read or is no Rust.
@@ -378,8 +363,15 @@ pub(crate) fn run(root: &Path) -> Result<(), StructureError> {
     }
     println!("{} lines", lines(root)?);
     println!("{} numeric constants", constants(root)?);
-    for (name, count) in methods(root)? {
+    let sizes = Sizes::of([root])?;
+    for (name, count) in sizes.large(0) {
         println!("{count} methods: {name}");
+    }
+    for name in sizes.rare() {
+        println!("a method with a default that few types replace: {name}");
+    }
+    for (name, count) in sizes.wide(MAX_FIELDS) {
+        println!("{count} fields: {name}");
     }
     Ok(())
 }
@@ -426,9 +418,6 @@ mod tests {
     /// Public modules at the top of the facade.
     const MAX_PUBLIC_MODULES: usize = 12;
 
-    /// Methods that a trait may have.
-    const MAX_METHODS: [(&str, usize); 2] = [("Element", 9), ("AnyBatch", 10)];
-
     fn sources_of(name: &str) -> PathBuf {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src")
     }
@@ -455,18 +444,6 @@ mod tests {
             found <= MAX_LINES,
             "{found} lines instead of {MAX_LINES}: delete some, or say what they do in docs/decisions/growth.md"
         );
-    }
-
-    #[test]
-    fn queries_of_elements_are_methods_of_capabilities() {
-        let found = methods(&sources_of("lissom-mechanics")).expect("readable sources");
-        for (name, most) in MAX_METHODS {
-            assert!(
-                found[name] <= most,
-                "{name} has {} methods: a query belongs to a capability",
-                found[name]
-            );
-        }
     }
 
     #[test]
