@@ -236,6 +236,33 @@ impl Feedback {
         })
     }
 
+    /// Work of all loads between two configurations [J]: signals are evaluated once at each of them.
+    pub fn work_of_all(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        if self.driven.is_empty() {
+            return 0.0;
+        }
+        let of = |before: &[f64], after: &[f64], (signal, load): (SignalId, &dyn Element)| {
+            work(load, (from, to), [before, after].map(|own| own[signal.index()]))
+        };
+        self.graph.evaluate(from, |before| {
+            self.graph.evaluate(to, |after| self.loads().map(|own| of(before, after, own)).sum())
+        })
+    }
+
+    /// Power of all loads [W].
+    pub fn power_of_all(&self, at: &Kinematics) -> f64 {
+        if self.driven.is_empty() {
+            return 0.0;
+        }
+        self.graph.evaluate(at, |values| {
+            self.loads().map(|(signal, load)| values[signal.index()] * power(load, at)).sum()
+        })
+    }
+
+    fn loads(&self) -> impl Iterator<Item = (SignalId, &dyn Element)> {
+        (0..self.count()).filter_map(|item| self.load(item))
+    }
+
     /// Power of a load [W]; none of a state.
     pub fn power(&self, item: usize, at: &Kinematics) -> f64 {
         self.load(item).map_or(0.0, |(signal, load)| self.graph.value(signal, at) * power(load, at))

@@ -339,21 +339,20 @@ impl System {
     /// that are cubic polynomials.
     #[inline]
     pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
-        self.sum_over_loads(|load| load.work(from, to), |item| self.feedback.work(item, from, to))
+        self.sum_over_loads(|load| load.work(from, to), || self.feedback.work_of_all(from, to))
     }
 
     /// Power of loads [W].
     pub fn power_of_loads(&self, at: &Kinematics) -> f64 {
-        self.sum_over_loads(|load| load.power(at), |item| self.feedback.power(item, at))
+        self.sum_over_loads(|load| load.power(at), || self.feedback.power_of_all(at))
     }
 
     /// Sum over loads, first of every kind, and over those scaled by signals.
-    fn sum_over_loads(&self, of: impl Fn(&dyn Load) -> f64, of_scaled: impl Fn(usize) -> f64) -> f64 {
+    fn sum_over_loads(&self, of: impl Fn(&dyn Load) -> f64, of_scaled: impl Fn() -> f64) -> f64 {
         let loads = |batch: &Arc<dyn AnyBatch>| {
             batch.elements_with(|own| own.load).filter(|load| load.is_active()).map(&of).sum::<f64>()
         };
-        let scaled = (0..self.feedback.count()).map(of_scaled).sum();
-        self.batches.iter().map(loads).chain([scaled]).sum()
+        self.batches.iter().map(loads).chain([of_scaled()]).sum()
     }
 
     /// Power of prescribed motions, with all multipliers [W].

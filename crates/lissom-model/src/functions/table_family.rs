@@ -59,12 +59,28 @@ impl ForceFunction for TableFamily {
     }
 
     fn bounds(&self, first: Interval, second: Interval) -> Option<Interval> {
-        // Values are between those of tables, so that the extremes of all tables bound them.
-        let each = self.tables.iter().map(|(_, table)| ForceFunction::bounds(table, first, second));
-        each.reduce(|all, own| {
-            let (all, own) = (all?, own?);
-            Some([all[0].min(own[0]), all[1].max(own[1])])
-        })?
+        if let [(_, only)] = self.tables.as_slice() {
+            return ForceFunction::bounds(only, first, second);
+        }
+        // Between two tables the value is linear in the second argument: its bounds are those at the ends.
+        let [(from, low), (to, high)] = second.map(|end| self.weight(end));
+        let mut all = [f64::INFINITY, f64::NEG_INFINITY];
+        for lower in from..=to {
+            let ends = [if lower == from { low } else { 0.0 }, if lower == to { high } else { 1.0 }];
+            let weights = ends.map(|weight| weight.clamp(0.0, 1.0));
+            // A table without weight does not count.
+            let of = |index: usize, counts: bool| {
+                let table = &self.tables[index].1;
+                if counts { ForceFunction::bounds(table, first, second) } else { Some([0.0; 2]) }
+            };
+            let below = of(lower, weights.iter().any(|weight| *weight < 1.0))?;
+            let above = of(lower + 1, weights.iter().any(|weight| *weight > 0.0))?;
+            for weight in weights {
+                let [least, most] = [0, 1].map(|k| (1.0 - weight) * below[k] + weight * above[k]);
+                all = [all[0].min(least), all[1].max(most)];
+            }
+        }
+        Some(all)
     }
 
     fn enclosure(&self, first: &Enclosure, second: &Enclosure) -> Option<Enclosure> {
