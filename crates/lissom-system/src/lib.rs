@@ -7,6 +7,7 @@ mod constraints;
 pub mod element_quantity;
 pub mod energy_derivatives;
 mod feedback;
+mod limits;
 mod mass;
 mod output_derivatives;
 mod parameter_difference;
@@ -47,9 +48,7 @@ use lissom_contact::set::ContactSet;
 use lissom_flexible::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
-use lissom_mechanics::elements::{
-    Capabilities, Element, Energy, ForceLaws, LimitKind, Load, Unknowns, Validity,
-};
+use lissom_mechanics::elements::{Capabilities, Element, Energy, ForceLaws, Load, Unknowns};
 use lissom_mechanics::evaluation::batch::AnyBatch;
 use lissom_mechanics::evaluation::scatter_map::ScatterMap;
 use lissom_mechanics::evaluation::work::{power, work};
@@ -285,14 +284,6 @@ impl System {
         capability: impl Fn(Capabilities<'s>) -> Option<&'s C> + Copy + 's,
     ) -> impl Iterator<Item = &'s C> {
         self.batches.iter().flat_map(move |batch| batch.elements_with(capability))
-    }
-
-    /// All elements of kinds with a kind of limits.
-    pub fn elements_with_limit(&self, kind: LimitKind) -> impl Iterator<Item = &dyn Validity> {
-        let has = move |batch: &&Arc<dyn AnyBatch>| {
-            batch.capabilities().validity.is_some_and(|own| own.limits().contains(&kind))
-        };
-        self.batches.iter().filter(has).flat_map(|batch| batch.elements_with(|own| own.validity))
     }
 
     /// Kinetic, elastic and potential energy of all elements [J]; of touches without elements see [`energy_of`](Self::energy_of).

@@ -15,7 +15,6 @@ use crate::elements::{LimitKind, Place};
 use crate::energy_balance::{EnergyBalance, StepWork};
 use crate::errors::{MAX_LISTED, StepError, Warning};
 use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
-use crate::monitors::limits::{exceeded, parts};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Problem;
@@ -239,9 +238,9 @@ fn overlaps(system: &System, at: &Kinematics) -> Result<(), StepError> {
 
 /// Fails if a rope under tension no longer lies on one of its sheaves.
 fn ropes(system: &System, at: &Kinematics) -> Result<(), StepError> {
-    let Some((rope, beyond)) = exceeded(system, (LimitKind::Sheave, 1.0), [at; 2]) else { return Ok(()) };
+    let Some((rope, beyond)) = system.exceeded((LimitKind::Sheave, 1.0), [at; 2]) else { return Ok(()) };
     let Place::Point(index, how) = beyond.place else { return Ok(()) };
-    let parts = parts(system, rope).join("` and `");
+    let parts = system.parts_of(rope).join("` and `");
     Err(StepError::OffSheave { time: at.time, parts, point: index + 1, how })
 }
 

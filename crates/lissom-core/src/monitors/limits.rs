@@ -3,7 +3,7 @@
 use super::monitor::{Accepted, Beginning, Monitor, NOTEWORTHY};
 use crate::elements::{Limit, LimitKind, Place, Validity};
 use crate::errors::{Warning, warn};
-use crate::kinematics::{GROUND, Kinematics, NodeId, Subject};
+use crate::kinematics::{Kinematics, NodeId, Subject};
 use crate::system::System;
 
 /// Limits that are checked on every accepted step, and the multiple of them that is reported.
@@ -51,7 +51,7 @@ impl Monitor for Limits {
             if kind == LimitKind::Reversal && !is_dynamic {
                 continue;
             }
-            if let Some((element, limit)) = exceeded(system, (kind, multiple), ends) {
+            if let Some((element, limit)) = system.exceeded((kind, multiple), ends) {
                 report(warning(system, kind, (element, &limit), ends[1].time), warnings);
             }
         }
@@ -66,23 +66,10 @@ impl Monitor for Limits {
     }
 }
 
-/// The element that exceeds a multiple of its limit of a kind most, in a step between two configurations.
-pub(crate) fn exceeded<'s>(
-    system: &'s System,
-    (kind, multiple): (LimitKind, f64),
-    step: [&'s Kinematics; 2],
-) -> Option<(&'s dyn Validity, Limit<'s>)> {
-    let all =
-        system.elements_with_limit(kind).filter_map(|element| Some((element, element.limit(kind, step)?)));
-    let beyond = all.filter(|(_, own)| own.value > multiple * own.limit);
-    beyond
-        .reduce(|most, own| if own.1.value * most.1.limit > most.1.value * own.1.limit { own } else { most })
-}
-
 /// Warnings of elements beyond their limits at the start of a motion.
 pub(crate) fn at_start<'s>(system: &'s System, at: &'s Kinematics) -> impl Iterator<Item = Warning> + 's {
     OF_STARTS.into_iter().filter_map(move |own| {
-        let (element, limit) = exceeded(system, own, [at; 2])?;
+        let (element, limit) = system.exceeded(own, [at; 2])?;
         Some(match warning(system, own.0, (element, &limit), at.time) {
             Warning::ContactTooDeep { time, part, depth, .. } => {
                 Warning::ContactOverlaps { time, part, depth }
@@ -90,12 +77,6 @@ pub(crate) fn at_start<'s>(system: &'s System, at: &'s Kinematics) -> impl Itera
             other => other,
         })
     })
-}
-
-/// Names of the parts of an element.
-pub(crate) fn parts(system: &System, element: &dyn Validity) -> Vec<String> {
-    let parts = element.unknowns().nodes.iter().filter(|&&node| node != GROUND);
-    parts.map(|&node| system.layout().name_of_node(node).to_owned()).collect()
 }
 
 fn warning(
@@ -108,7 +89,7 @@ fn warning(
     let layout = system.layout();
     let name = |node: NodeId| layout.name_of_node(node).to_owned();
     let nodes = element.unknowns().nodes;
-    let part = || parts(system, element).pop().unwrap_or_default();
+    let part = || system.parts_of(element).pop().unwrap_or_default();
     let interface = || if let Place::Node(node) = place { name(*node) } else { part() };
     let largest = value;
     match kind {
@@ -122,11 +103,11 @@ fn warning(
             Warning::BeyondStop { time, coordinate, depth: value }
         }
         LimitKind::Slack | LimitKind::Sheave => {
-            let parts = parts(system, element).join("` and `");
+            let parts = system.parts_of(element).join("` and `");
             Warning::RopeSlack { time, parts, slack: value, length: limit }
         }
         LimitKind::Stretch => {
-            let parts = parts(system, element).join("` and `");
+            let parts = system.parts_of(element).join("` and `");
             Warning::RopeStretched { time, parts, stretch: value, length: limit }
         }
         LimitKind::Reversal => {

@@ -1,11 +1,10 @@
 //! Numbers that elements report besides forces and energy.
 
-use super::element::Element;
 use crate::kinematics::Kinematics;
 use crate::signals::measurement::{Gradient, MAX_COMPONENTS};
 
 /// Elements with numbers of their own, such as the slip of a tyre. The output with these words records them.
-pub trait Report: Element {
+pub trait Report {
     /// Their words and units, at most [`MAX_COMPONENTS`].
     fn words(&self) -> &'static [(&'static str, &'static str)];
 

@@ -15,7 +15,7 @@ class Fluid(Entry):
 
     Args:
         density: density; default 860 [kg/m³]; a number > 0, or nothing.
-        bulk_modulus: of the liquid without air; default 1500000000 [Pa]; a number > 0, or nothing.
+        bulk_modulus: of the liquid without air; default 1.5e9 [Pa]; a number > 0, or nothing.
         viscosity: kinematic viscosity; default 4.6e-5 [m²/s]; a number > 0, or nothing.
         air: fraction of the volume that is undissolved air at the pressure of the atmosphere; default 5e-3; a number from 0 to 0.5, or nothing.
         exponent: polytropic exponent of the air; default 1.4; a number from 1 to 2, or nothing.
@@ -99,7 +99,7 @@ class Cylinder(HydraulicPart):
         extension: of the rod at displacement zero, from 0 to `stroke` [m]; a number ≥ 0, or nothing.
         friction: viscous friction; default 0 [N s/m]; a number ≥ 0, or nothing.
         leakage: past the piston, from `a` to `b`; default 0 [m³/(s Pa)]; a number ≥ 0, or nothing.
-        stop_stiffness: of the stops at the ends of the stroke; default 100000000 [N/m]; a number > 0, or nothing.
+        stop_stiffness: of the stops at the ends of the stroke; default 1e8 [N/m]; a number > 0, or nothing.
         stop_damping: of the stops; default 100000 [N s/m]; a number ≥ 0, or nothing.
     """
 

@@ -9,7 +9,7 @@ entries! {
     /// A fluid of hydraulic parts.
     Fluid => FluidId, "fluid" {
         density: f64 = "density", "Density; default 860 \\[kg/m³\\].";
-        bulk_modulus: f64 = "bulk_modulus", "Of the liquid without air; default 1500000000 \\[Pa\\].";
+        bulk_modulus: f64 = "bulk_modulus", "Of the liquid without air; default 1.5e9 \\[Pa\\].";
         viscosity: f64 = "viscosity", "Kinematic viscosity; default 4.6e-5 \\[m²/s\\].";
         air: f64 = "air", "Fraction of the volume that is undissolved air at the pressure of the atmosphere; default 5e-3.";
         exponent: f64 = "exponent", "Polytropic exponent of the air; default 1.4.";
@@ -42,7 +42,7 @@ entries! {
         extension: f64 = "extension", "Of the rod at displacement zero, from 0 to `stroke` \\[m\\].";
         friction: f64 = "friction", "Viscous friction; default 0 \\[N s/m\\].";
         leakage: f64 = "leakage", "Past the piston, from `a` to `b`; default 0 \\[m³/(s Pa)\\].";
-        stop_stiffness: f64 = "stop_stiffness", "Of the stops at the ends of the stroke; default 100000000 \\[N/m\\].";
+        stop_stiffness: f64 = "stop_stiffness", "Of the stops at the ends of the stroke; default 1e8 \\[N/m\\].";
         stop_damping: f64 = "stop_damping", "Of the stops; default 100000 \\[N s/m\\].";
     }
 
