@@ -6,7 +6,7 @@ use lissom_motion::{Motion, Vector3};
 
 use crate::error::MeshError;
 use crate::mesh::{Mesh, MeshElement};
-use crate::meshed_part::{Element, MeshedPart, positions};
+use crate::parts::meshed_part::{Element, MeshedPart, positions};
 
 /// Numbers of the nodes at the ends of the edges of the elements of each set.
 type EdgesOfSets = BTreeMap<String, BTreeSet<[u64; 2]>>;

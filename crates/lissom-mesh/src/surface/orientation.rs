@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use crate::edges::{edges, shared};
 use crate::mesh::Mesh;
+use crate::surface::edges::{edges, shared};
 
 impl Mesh {
     /// Flips triangles and quadrilaterals until neighbours agree, and returns the number of flipped ones. Of each
@@ -52,5 +52,5 @@ impl Mesh {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/orientation.rs"]
+#[path = "../../tests/unit/surface/orientation.rs"]
 mod tests;

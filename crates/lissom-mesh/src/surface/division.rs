@@ -163,5 +163,5 @@ impl<'a> Division<'a> {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/division.rs"]
+#[path = "../../tests/unit/surface/division.rs"]
 mod tests;

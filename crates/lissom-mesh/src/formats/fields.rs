@@ -68,5 +68,5 @@ pub(crate) fn whole<T: std::str::FromStr>(line: usize, field: &str) -> Result<T,
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/fields.rs"]
+#[path = "../../tests/unit/formats/fields.rs"]
 mod tests;

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use lissom_motion::Vector3;
 
-use crate::meshed_part::MeshedPart;
+use crate::parts::meshed_part::MeshedPart;
 
 /// Why the elements of a solid do not form a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use lissom_motion::Vector3;
 
 use crate::mesh::MeshShape;
-use crate::meshed_part::{Element, MeshedPart};
+use crate::parts::meshed_part::{Element, MeshedPart};
 
 /// Names of the sides: u = 0 and 1, v = 0 and 1.
 const SIDES: [&str; 4] = ["west", "east", "south", "north"];

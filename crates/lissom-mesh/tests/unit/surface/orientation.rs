@@ -1,7 +1,7 @@
 //! Tests of `orientation`, a module of it.
 
-use crate::fault::MeshFaultKind;
-use crate::obj;
+use crate::formats::obj;
+use crate::surface::fault::MeshFaultKind;
 
 const STRIP: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 3 1 0\n";
 

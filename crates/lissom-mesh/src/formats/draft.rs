@@ -99,5 +99,5 @@ impl Draft {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/draft.rs"]
+#[path = "../../tests/unit/formats/draft.rs"]
 mod tests;

@@ -1,8 +1,8 @@
 //! Tests of `faults`, a module of it.
 
 use super::*;
-use crate::fault::Severity;
-use crate::obj;
+use crate::formats::obj;
+use crate::surface::fault::Severity;
 
 /// Faults of a mesh: kind, elements and nodes.
 fn faults(text: &str) -> Vec<(MeshFaultKind, Vec<u64>, Vec<u64>)> {

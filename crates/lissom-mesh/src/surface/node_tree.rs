@@ -99,5 +99,5 @@ pub(crate) fn along(position: [f64; 3], [from, to]: [[f64; 3]; 2]) -> (f64, f64)
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/node_tree.rs"]
+#[path = "../../tests/unit/surface/node_tree.rs"]
 mod tests;

@@ -1,8 +1,8 @@
 //! Tests of `division`, a module of it.
 
 use super::*;
-use crate::edges::{edges, shared};
-use crate::{gmsh, obj};
+use crate::formats::{gmsh, obj};
+use crate::surface::edges::{edges, shared};
 
 /// Number of nodes less edges plus elements of a surface.
 fn euler_characteristic(mesh: &Mesh) -> i64 {

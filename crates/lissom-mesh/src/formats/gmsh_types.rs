@@ -61,5 +61,5 @@ pub(crate) fn in_order_of_abaqus(shape: MeshShape, nodes: &[u64]) -> Vec<u64> {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/gmsh_types.rs"]
+#[path = "../../tests/unit/formats/gmsh_types.rs"]
 mod tests;

@@ -65,5 +65,5 @@ pub(crate) fn treatment(name: &str) -> Treatment {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/abaqus_types.rs"]
+#[path = "../../tests/unit/formats/abaqus_types.rs"]
 mod tests;

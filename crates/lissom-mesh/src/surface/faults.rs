@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use crate::edges::{Edge, edges, shared, sides};
-use crate::fault::{MeshFault, MeshFaultKind};
 use crate::mesh::{Mesh, MeshElement, MeshShape};
-use crate::node_tree::{NodeTree, along};
+use crate::surface::edges::{Edge, edges, shared, sides};
+use crate::surface::fault::{MeshFault, MeshFaultKind};
+use crate::surface::node_tree::{NodeTree, along};
 use crate::vectors::{cross, difference, dot, length, mean};
 
 /// Distance of nodes at the same position, relative to the size of the mesh.
@@ -189,5 +189,5 @@ fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/faults.rs"]
+#[path = "../../tests/unit/surface/faults.rs"]
 mod tests;

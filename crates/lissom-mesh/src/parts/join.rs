@@ -2,7 +2,7 @@
 
 use lissom_motion::Vector3;
 
-use crate::meshed_part::MeshedPart;
+use crate::parts::meshed_part::MeshedPart;
 
 /// Relative distance of nodes that count as one.
 const SAME: f64 = 1e-9;

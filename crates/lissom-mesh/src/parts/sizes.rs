@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::kinds::face::area_shares;
-use crate::meshed_part::MeshedPart;
+use crate::parts::meshed_part::MeshedPart;
 
 /// Whether all of some nodes are among those that are wanted.
 type IsIn<'a> = dyn Fn(&[usize]) -> bool + 'a;

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::error::MeshError;
-use crate::fields::{label, quote};
+use crate::formats::fields::{label, quote};
+use crate::formats::set_budget::SetBudget;
 use crate::mesh::Mesh;
-use crate::set_budget::SetBudget;
 
 /// Sets as indices, and notes.
 type Resolved = (BTreeMap<String, Vec<usize>>, Vec<String>);
@@ -172,5 +172,5 @@ fn unknown(line: usize, what: &str, name: &str) -> MeshError {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/abaqus_sets.rs"]
+#[path = "../../tests/unit/formats/abaqus_sets.rs"]
 mod tests;

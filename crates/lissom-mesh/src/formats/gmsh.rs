@@ -5,12 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use crate::draft::Draft;
 use crate::error::MeshError;
-use crate::fields::{Lines, label, quote, real, whole};
-use crate::gmsh_types::{ElementType, element_type, in_order_of_abaqus};
+use crate::formats::draft::Draft;
+use crate::formats::fields::{Lines, label, quote, real, whole};
+use crate::formats::gmsh_types::{ElementType, element_type, in_order_of_abaqus};
+use crate::formats::set_budget::SetBudget;
 use crate::mesh::Mesh;
-use crate::set_budget::SetBudget;
 
 const AS_ASCII: &str =
     "save it in Gmsh as ASCII of version 2 or 4.1 (Mesh.Binary = 0, Mesh.MshFileVersion = 4.1)";
@@ -362,5 +362,5 @@ fn member<'a>(sets: &'a mut BTreeMap<String, Vec<usize>>, name: &str) -> &'a mut
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/gmsh.rs"]
+#[path = "../../tests/unit/formats/gmsh.rs"]
 pub(crate) mod tests;

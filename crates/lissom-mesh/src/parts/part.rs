@@ -87,5 +87,5 @@ fn remaining(sets: &BTreeMap<String, Vec<usize>>, new: &[Option<usize>]) -> BTre
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/part.rs"]
+#[path = "../../tests/unit/parts/part.rs"]
 mod tests;

@@ -1,8 +1,8 @@
 //! Which format a file has.
 
 use crate::error::MeshError;
+use crate::formats::{abaqus, gmsh, obj};
 use crate::mesh::Mesh;
-use crate::{abaqus, gmsh, obj};
 
 /// Reads the text of a mesh file.
 ///
@@ -23,5 +23,5 @@ pub fn read(text: &[u8], extension: &str) -> Result<Mesh, MeshError> {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/read.rs"]
+#[path = "../../tests/unit/formats/read.rs"]
 mod tests;

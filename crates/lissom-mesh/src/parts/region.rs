@@ -2,7 +2,7 @@
 
 use lissom_motion::{Motion, Vector3};
 
-use crate::meshed_part::MeshedPart;
+use crate::parts::meshed_part::MeshedPart;
 
 /// A region.
 #[derive(Clone, Debug)]

@@ -4,9 +4,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::draft::Draft;
 use crate::error::MeshError;
-use crate::fields::{Lines, quote, real};
+use crate::formats::draft::Draft;
+use crate::formats::fields::{Lines, quote, real};
 use crate::mesh::{Mesh, MeshShape};
 
 /// What belongs to pictures, not to a mesh.
@@ -103,5 +103,5 @@ fn shapes(line: usize, word: &str, nodes: Vec<u64>) -> Result<Vec<(MeshShape, Ve
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/obj.rs"]
+#[path = "../../tests/unit/formats/obj.rs"]
 pub(crate) mod tests;

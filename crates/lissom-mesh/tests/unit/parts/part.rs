@@ -1,7 +1,7 @@
 //! Tests of `part`, a module of it.
 
 use super::*;
-use crate::abaqus;
+use crate::formats::abaqus;
 
 #[test]
 fn a_part_has_its_own_nodes_and_sets() {

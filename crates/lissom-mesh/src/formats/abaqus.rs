@@ -5,11 +5,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::abaqus_sets::Lists;
-use crate::abaqus_types::{Treatment, treatment};
-use crate::draft::Draft;
 use crate::error::MeshError;
-use crate::fields::{Lines, label, quote, real};
+use crate::formats::abaqus_sets::Lists;
+use crate::formats::abaqus_types::{Treatment, treatment};
+use crate::formats::draft::Draft;
+use crate::formats::fields::{Lines, label, quote, real};
 use crate::mesh::{Mesh, MeshMaterial, MeshSection, MeshShape};
 
 const ONE_PART: &str = "export each part into a file of its own";
@@ -426,5 +426,5 @@ impl Reader {
 }
 
 #[cfg(test)]
-#[path = "../tests/unit/abaqus.rs"]
+#[path = "../../tests/unit/formats/abaqus.rs"]
 pub(crate) mod tests;
