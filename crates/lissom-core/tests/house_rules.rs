@@ -327,11 +327,12 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the mechanics, and what of their crate they may name.
-const FLOORS: [(&str, &[&str]); 16] = [
+const FLOORS: [(&str, &[&str]); 17] = [
     ("number.rs", &["number"]),
     ("round_off.rs", &[]),
     ("instants.rs", &["round_off"]),
-    ("kinematics/", &["kinematics", "round_off"]),
+    ("units.rs", &[]),
+    ("kinematics/", &["kinematics", "round_off", "units"]),
     ("dual.rs", &[]),
     ("law.rs", &[]),
     ("relation.rs", &["law"]),
@@ -340,7 +341,10 @@ const FLOORS: [(&str, &[&str]); 16] = [
     ("ports.rs", &["kinematics", "registry"]),
     ("compliance.rs", &["round_off"]),
     ("wheels/", &["dual", "kinematics", "registry", "round_off", "wheels"]),
-    ("signals/", &["diagnostics", "dual", "instants", "kinematics", "law", "number", "round_off", "signals"]),
+    (
+        "signals/",
+        &["diagnostics", "dual", "instants", "kinematics", "law", "number", "round_off", "signals", "units"],
+    ),
     ("joints/", &["joints", "kinematics", "law", "ports", "registry", "relation", "round_off", "wheels"]),
     ("evaluation/", &["evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
     (

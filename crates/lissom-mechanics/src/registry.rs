@@ -274,7 +274,7 @@ impl DefaultValue {
 /// A range in which a number usually is, and what a number outside of it is likely to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Usual {
-    /// Least and largest size; zero is usual.
+    /// Smallest and largest size; zero is usual.
     pub range: [f64; 2],
     /// The likely mistake, such as a unit.
     pub instead: &'static str,

@@ -146,7 +146,7 @@ impl Driven {
 /// A value with a lower limit, beyond which the model is not valid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastValue {
-    /// Whose value it is.
+    /// Subject of messages.
     pub of: Subject,
     /// The value.
     pub value: MeasurementId,

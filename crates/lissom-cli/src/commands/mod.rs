@@ -10,9 +10,6 @@ mod import;
 mod initial_scene;
 mod kinds;
 mod live;
-#[cfg(test)]
-#[path = "../../tests/unit/commands/manual.rs"]
-mod manual;
 mod model_arguments;
 mod new;
 mod outcome;

@@ -40,7 +40,7 @@ pub(super) struct SignalReferences {
 /// A unit with equations, as far as it is added.
 #[derive(Clone)]
 pub(super) struct AddedUnit {
-    /// Its index among all units.
+    /// Index among all units.
     pub(super) index: usize,
     /// States.
     pub(super) states: Vec<CoordinateId>,

@@ -11,9 +11,6 @@ mod derivatives;
 mod differences;
 pub(crate) mod energy;
 pub(crate) mod entry;
-#[cfg(test)]
-#[path = "../../tests/unit/outputs/every_kind.rs"]
-mod every_kind;
 pub(crate) mod expression;
 pub(crate) mod frames;
 pub(crate) mod kinds;
@@ -35,6 +32,9 @@ pub(crate) mod signal;
 pub(crate) mod solid_stress;
 pub(crate) mod spring;
 mod spring_force;
+#[cfg(test)]
+#[path = "../../tests/unit/outputs/mod.rs"]
+mod tests;
 mod touched;
 mod tyre;
 pub(crate) mod work;
