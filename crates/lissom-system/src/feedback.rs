@@ -150,7 +150,7 @@ pub struct LeastValue {
     pub of: Subject,
     /// The value.
     pub value: MeasurementId,
-    /// Its limit.
+    /// Lower limit.
     pub least: f64,
 }
 

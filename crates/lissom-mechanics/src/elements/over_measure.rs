@@ -70,7 +70,7 @@ pub(crate) trait Measure: Clone + Debug + Send + Sync + 'static {
         None
     }
 
-    /// Its kinds of limits.
+    /// Kinds of limits.
     const LIMITS: &'static [LimitKind] = &[];
 
     /// A limit over a step under a force at a configuration. Default: it has none.
@@ -112,7 +112,7 @@ pub(crate) trait MeasuredLaw: Clone + Debug + Send + Sync + 'static {
         None
     }
 
-    /// Its kinds of limits; those of its measure otherwise.
+    /// Kinds of limits; those of the measure otherwise.
     const LIMITS: &'static [LimitKind] = &[];
 
     /// A limit of the law at a value of the measure. Default: it has none.

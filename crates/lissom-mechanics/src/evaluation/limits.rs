@@ -55,7 +55,7 @@ pub enum LimitKind {
 pub struct Limit<'e> {
     /// The number.
     pub value: f64,
-    /// Its limit.
+    /// Largest usual or valid one.
     pub limit: f64,
     /// Where it is, if the nodes of the element do not say so.
     pub place: Place<'e>,
