@@ -84,7 +84,7 @@ fn sources(folder: &Path) -> Result<Vec<PathBuf>, StructureError> {
 }
 
 impl Sizes {
-    /// Those of all crates with these sources.
+    /// Sizes of all crates with these sources.
     ///
     /// # Errors
     /// If a file cannot be read or is no Rust.

@@ -33,24 +33,34 @@ const OF_STARTS: [(LimitKind, f64); 5] = [
 ];
 
 /// Reports the first value beyond each limit. Has no state.
-struct Limits;
+struct Limits {
+    /// Kinds that elements of the system have, with their multiples.
+    kinds: Vec<(LimitKind, f64)>,
+}
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let system = beginning.problem.system;
-    let applies = |(kind, _): &(LimitKind, f64)| system.elements_with_limit(*kind).next().is_some();
-    let has_limits = OF_STEPS.iter().any(applies) || !system.least_values().is_empty();
-    has_limits.then(|| Box::new(Limits) as Box<dyn Monitor>)
+    let at = [&beginning.state.kinematics; 2];
+    let applies = |&(kind, _): &(LimitKind, f64)| {
+        let mut elements = system.elements_with_limit(kind);
+        match kind {
+            // Steps of loads may be long.
+            LimitKind::Reversal => {
+                beginning.problem.settings.scheme.dynamic && elements.any(|own| own.limit(kind, at).is_some())
+            }
+            _ => elements.next().is_some(),
+        }
+    };
+    let kinds: Vec<_> = OF_STEPS.into_iter().filter(applies).collect();
+    let has_limits = !kinds.is_empty() || !system.least_values().is_empty();
+    has_limits.then(|| Box::new(Limits { kinds }) as Box<dyn Monitor>)
 }
 
 impl Monitor for Limits {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
-        let (system, is_dynamic) = (step.problem.system, step.problem.settings.scheme.dynamic);
+        let system = step.problem.system;
         let ends = [&step.start.kinematics, &step.end.kinematics];
-        for (kind, multiple) in OF_STEPS {
-            // Steps of loads may be long.
-            if kind == LimitKind::Reversal && !is_dynamic {
-                continue;
-            }
+        for &(kind, multiple) in &self.kinds {
             if let Some((element, limit)) = system.exceeded((kind, multiple), ends) {
                 report(warning(system, kind, (element, &limit), ends[1].time), warnings);
             }

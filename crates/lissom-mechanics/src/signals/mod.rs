@@ -144,7 +144,7 @@ impl Signal {
         self.subject.clone().called(format!("{} = {}", self.subject, self.text))
     }
 
-    /// Its function of the model, if it is not sampled.
+    /// Function of the model, if it is not sampled.
     fn law(&self) -> Option<&dyn SignalFunction> {
         match &self.function {
             Function::Own(function) if self.sampling.is_none() => Some(&**function),
