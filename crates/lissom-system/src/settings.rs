@@ -137,8 +137,12 @@ impl ScalingChoice {
 }
 
 impl Settings {
-    /// What to change where steps do not resolve the motion, except what is the case already.
-    pub fn resolution_remedy(&self) -> &'static str {
+    /// What to change where steps do not resolve the motion, except what is the case already, or what contacts that are solved as a
+    /// set exclude.
+    pub fn resolution_remedy(&self, has_sets: bool) -> &'static str {
+        if has_sets {
+            return "use a smaller step";
+        }
         match (self.control.is_some(), self.scheme.name.starts_with("radau-iia")) {
             (true, true) => "use a smaller `relative_tolerance`",
             (true, false) => "use a smaller `relative_tolerance`, or choose `scheme = \"radau-iia\"`",

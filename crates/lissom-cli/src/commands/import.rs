@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lissom::exchange::import::{
-    ChosenStart, Freedom, Motors, Options, Pose, Root, Unsupported, chosen_starts, from_file, model_text,
-    omissions,
+    ChosenStart, Freedom, Motors, Options, Pose, Robot, Root, Unsupported, chosen_starts, from_file,
+    model_text, omissions,
 };
 use lissom::model::files;
 use lissom::{Diagnose, Diagnostic, Model, SessionError};
@@ -24,13 +24,16 @@ Examples:
   lissom import solo12.urdf --floating --without limits,friction
   lissom import hopper.xml                         MJCF, the description of MuJoCo
   lissom import humanoid.xml --keyframe squat      starts at one of its key frames
-  lissom import world.sdf                          SDF, the description of Gazebo, with all its models")]
+  lissom import world.sdf                          SDF, the description of Gazebo, with all its models
+  lissom import robots/                            a table: which descriptions in the folder open, and why others do not
+  lissom import robots/ --out models/              writes their models, too")]
 pub(super) struct Import {
-    /// The description: URDF, MJCF or SDF, regardless of the file extension.
-    #[arg(value_name = "ROBOT")]
+    /// The description: URDF, MJCF or SDF, regardless of the file extension; or a folder of them.
+    #[arg(value_name = "ROBOT|FOLDER")]
     file: PathBuf,
-    /// The model file to write [default: the name of the description with the extension toml, in the current folder].
-    #[arg(long, short, value_name = "MODEL.toml")]
+    /// The model file to write [default: the name of the description with the extension toml, in the current folder]; for a folder of
+    /// descriptions a folder [default: nothing is written].
+    #[arg(long, short, value_name = "MODEL.toml|DIR")]
     out: Option<PathBuf>,
     /// Initial coordinate of a joint [rad, m]; may be repeated.
     #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]
@@ -70,22 +73,32 @@ fn joint_value(text: &str) -> Result<(String, f64), String> {
     }
 }
 
+/// Endings of files in a folder that may be descriptions.
+const ENDINGS: [&str; 5] = ["urdf", "xml", "mjcf", "sdf", "world"];
+
+/// What becomes of a description.
+struct Imported {
+    robot: Robot,
+    pose: Pose,
+    options: Options,
+    /// The text of the model file.
+    model: String,
+}
+
 impl Import {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        let file = format!("`{}`", self.file.display());
-        let bad = |error: Diagnostic| Failure::with_details(Exit::BadModel, &error.within(&file), "");
-        let stem = self.file.file_stem().unwrap_or_default();
-        let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension("toml"));
-        if out.exists() {
-            let message =
-                format!("`{}` already exists and is not overwritten: name another with --out", out.display());
-            return Err(Failure::request(message));
+        if self.file.is_dir() { self.folder() } else { self.single() }
+    }
+
+    /// Reads the description in `file`; `out` is where its model will be.
+    fn read(&self, file: &Path, out: &Path) -> Result<Imported, Failure> {
+        let subject = format!("`{}`", file.display());
+        let bad = |error: Diagnostic| Failure::with_details(Exit::BadModel, &error.within(&subject), "");
+        if !file.is_file() {
+            files::read_input_text(file).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         }
-        if !self.file.is_file() {
-            files::read_input_text(&self.file).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        }
-        let mut robot = from_file(&self.file).map_err(|error| bad(error.diagnostic()))?;
-        robot.locate_meshes(&self.file, &out);
+        let mut robot = from_file(file).map_err(|error| bad(error.diagnostic()))?;
+        robot.locate_meshes(file, out);
         let mut values = match &self.keyframe {
             Some(name) => robot.start_at(name).map_err(|error| bad(error.diagnostic()))?,
             None => BTreeMap::new(),
@@ -108,10 +121,78 @@ impl Import {
         let model = model_text(&robot, &pose, options).map_err(|error| bad(error.diagnostic()))?;
         // A model without a consistent initial state is not written.
         match Model::from_text(&out.display().to_string(), &model).session() {
-            Ok(_) => {}
-            Err(SessionError::Model(report)) => return Err(report.into()),
-            Err(error) => return Err(bad(error.diagnostic())),
+            Ok(_) => Ok(Imported { robot, pose, options, model }),
+            Err(SessionError::Model(report)) => Err(report.into()),
+            Err(error) => Err(bad(error.diagnostic())),
         }
+    }
+
+    /// A table of all descriptions in a folder: which open, what is omitted, and why others do not.
+    fn folder(&self) -> Result<Exit, Failure> {
+        let is_description = |path: &PathBuf| {
+            let ending = path.extension().map(|own| own.to_string_lossy().to_lowercase());
+            ending.is_some_and(|own| ENDINGS.contains(&own.as_str()))
+        };
+        let described = files::entries(&self.file).filter(is_description);
+        let mut names: Vec<String> =
+            described.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect();
+        names.sort_unstable();
+        if names.is_empty() {
+            let endings = ENDINGS.join(", ");
+            return Err(Failure::request(format!(
+                "there is no description in `{}`: files that end in {endings}",
+                self.file.display()
+            )));
+        }
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or_default();
+        let mut opened = 0;
+        for name in &names {
+            let file = self.file.join(name);
+            let folder = self.out.as_deref().unwrap_or(Path::new(""));
+            let out = folder.join(Path::new(name).with_extension("toml"));
+            let said = match self.read(&file, &out) {
+                Ok(Imported { robot, options, model, .. }) => {
+                    opened += 1;
+                    if self.out.is_some() && !out.exists() {
+                        files::create_folder(folder)
+                            .and_then(|()| files::write(&out, model.as_bytes()))
+                            .map_err(|error| Failure::new(Exit::Failed, &error))?;
+                    }
+                    let left_out = omissions(&robot, options);
+                    let links = robot.links.len();
+                    if left_out.is_empty() {
+                        format!("opens: {links} links")
+                    } else {
+                        format!("opens: {links} links, without {}", left_out.join("; "))
+                    }
+                }
+                Err(failure) => {
+                    let words = failure
+                        .words
+                        .trim_start_matches("error: ")
+                        .trim_start_matches([' ', '×'])
+                        .lines()
+                        .next()
+                        .unwrap_or_default();
+                    let about = format!("`{}`: ", file.display());
+                    format!("not: {}", words.trim_start_matches(&about))
+                }
+            };
+            terminal::print(&format!("{name:width$}  {said}\n"));
+        }
+        terminal::print(&format!("{opened} of {} descriptions open\n", names.len()));
+        Ok(if opened == names.len() { Exit::Done } else { Exit::BadModel })
+    }
+
+    fn single(&self) -> Result<Exit, Failure> {
+        let stem = self.file.file_stem().unwrap_or_default();
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension("toml"));
+        if out.exists() {
+            let message =
+                format!("`{}` already exists and is not overwritten: name another with --out", out.display());
+            return Err(Failure::request(message));
+        }
+        let Imported { robot, pose, options, model } = self.read(&self.file, &out)?;
         files::write(&out, model.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
         let moving =
             robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();

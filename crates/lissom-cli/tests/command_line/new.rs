@@ -139,6 +139,33 @@ fn an_imported_robot_runs_as_it_is() {
     assert!(!folder.path().join("b.toml").exists());
 }
 
+/// A folder is a table: what opens, what is left out, and why others do not.
+#[test]
+fn a_folder_of_descriptions_is_a_table() {
+    let folder = Folder::new("import-folder");
+    let robots = folder.path().join("robots");
+    fs::create_dir(&robots).unwrap();
+    let write = |name: &str, text: &str| fs::write(robots.join(name), text).unwrap();
+    write("arm.urdf", include_str!("../../../lissom/tests/machines/robots/two_links.urdf"));
+    write("empty.urdf", "<robot name='none'/>");
+    write("readme.txt", "no description");
+    let site = "<mujoco><worldbody><body name='a'><joint name='j'/><geom size='0.1'/><geom type='box' size='1' contype='0' conaffinity='0' mass='0'/></body></worldbody>\
+        <actuator><motor name='push' joint='j'/></actuator><sensor><accelerometer site='nowhere'/></sensor></mujoco>";
+    write("site.xml", site);
+    let shown = lissom(&["import", "robots"], folder.path());
+    let rows: Vec<&str> = shown.output.lines().collect();
+    assert_eq!((shown.code, rows.len()), (2, 4), "{}", shown.output);
+    assert!(rows[0].starts_with("arm.urdf    opens: 3 links"), "{}", rows[0]);
+    assert!(rows[1].contains("not: it has no <link>"), "{}", rows[1]);
+    assert!(rows[2].contains("the site `nowhere`, which is not there"), "{}", rows[2]);
+    assert!(rows[2].contains("a shape that is not drawn"), "{}", rows[2]);
+    assert_eq!(rows[3], "2 of 3 descriptions open");
+    let written = lissom(&["import", "robots", "--motors", "--out", "models"], folder.path());
+    assert_eq!(written.code, 2);
+    let model = fs::read_to_string(folder.path().join("models/site.toml")).unwrap();
+    assert!(model.contains("push = 0\n") && model.contains("[loads.push]"), "{model}");
+}
+
 /// Frames of tools and elements of simulators do not stand in the way, and a thing without joints is free.
 #[test]
 fn robots_of_the_world_their_tools_and_things_are_imported() {

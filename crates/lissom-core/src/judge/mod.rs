@@ -54,7 +54,7 @@ impl<'a> Judge<'a> {
         redundancy: &'a Redundancy,
     ) -> Self {
         let (is_motion, checks_energy) = (settings.scheme.dynamic, settings.energy_check);
-        let remedy = settings.resolution_remedy();
+        let remedy = settings.resolution_remedy(!system.contacts().is_empty());
         Self { system, representative, redundancy, is_motion, checks_energy, remedy }
     }
 }

@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use super::arnoldi::{Field, inverse, mode_of};
 use super::krylov::{Noise, Operator, product};
-use super::mode::Mode;
+use super::mode::{Mode, OVERDAMPED};
 use super::model::LinearModel;
 use super::shifted::GeneralShift;
 use super::{EIGENVALUE_TOLERANCE, EQUAL};
@@ -68,7 +68,14 @@ impl Spectrum {
         wanted.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         // Rigid modes are computed by the search, and included in the count.
         let rigid = modes.iter().filter(|mode| mode.eigenvalue == Complex64::default()).count();
-        wanted.truncate(count.saturating_sub(rigid));
+        let has_states = model.system.layout().states().next().is_some();
+        let mut left = count.saturating_sub(rigid);
+        wanted.retain(|value| {
+            let is_wanted = left > 0;
+            let is_decay = has_states && -value.re >= OVERDAMPED * value.norm();
+            left -= usize::from(is_wanted && !is_decay);
+            is_wanted
+        });
         let mut is_matched = vec![false; modes.len()];
         let mut missing = Vec::new();
         for value in wanted {

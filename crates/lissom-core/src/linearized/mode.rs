@@ -8,6 +8,9 @@ use crate::diagnostics::diagnostics;
 /// Damping ratio below which growth is distinguished from round-off.
 const GROWING: f64 = -1e-7;
 
+/// Damping ratio from which on a mode of first-order states is a decay, also where two of them are coupled a little.
+pub(super) const OVERDAMPED: f64 = 0.9;
+
 /// Options of a search for modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeOptions {

@@ -63,11 +63,14 @@ diagnostics! {
         NotConverged {
             /// Size of the last correction over the length of the model.
             correction: f64,
+            /// Power of all forces in the given rotation, at the positions of the file \[W\].
+            power: f64,
         } => "steady-rotation-not-found" {
             cause: ("no steady rotation was found from the positions of the file: the last correction was {correction:.1e} of the model's \
-                    length"),
-            remedy: "check the velocities at the start, which must be those of a steady rotation, and the speed, at which there may be none",
-            meaning: "No positions were found at which the model rotates steadily.",
+                    length, and there loads do {power:.1e} W in the rotation, which must be zero"),
+            remedy: "prescribe the rotation of its joint by a drive of kind `prescribed_rotation`, or give the torque or the pitch that balances \
+                the loads at this speed; else check the velocities at the start, which must be those of a steady rotation",
+            meaning: "No positions were found at which the model rotates steadily: without a drive the loads must balance at this speed.",
         }
     }
     wraps {
@@ -139,6 +142,7 @@ fn steady_over(
     let mut parts = system.empty_linearization();
     let mut shifted = ComplexShift::new(system, &representative);
     let mut residual = vec![0.0; layout.size()];
+    let mut power = 0.0;
     let (mut last, mut right) = (f64::INFINITY, vec![Complex64::default(); layout.size()]);
     for _ in 0..MAX_ITERATIONS {
         system.violations(&state.kinematics, &mut violations);
@@ -146,6 +150,9 @@ fn steady_over(
             *violation -= start;
         }
         averaged::mean_equations(system, &state, &violations, azimuths, (&mut residual, &mut parts));
+        if last.is_infinite() {
+            power = power_of(system, &state, &residual);
+        }
         shifted
             .factor(&parts, Complex64::from(SLOW_RATE * rate))
             .map_err(|error| stopped(system, time, &error))?;
@@ -164,14 +171,14 @@ fn steady_over(
             return Ok(state);
         }
         if !size.is_finite() {
-            return Err(SteadyError::NotConverged { correction: size });
+            return Err(SteadyError::NotConverged { correction: size, power });
         }
         last = size;
     }
     if last <= round_off::STEADY_MOTION {
         Ok(state)
     } else {
-        Err(SteadyError::NotConverged { correction: last })
+        Err(SteadyError::NotConverged { correction: last, power })
     }
 }
 
@@ -213,6 +220,18 @@ fn size_of(system: &System, change: &[Complex64], length: f64) -> f64 {
     let sizes = change.iter().zip(&layout.quantities()[..layout.coordinate_count()]);
     let sizes = sizes.map(|(value, &quantity)| value.re.abs() * unit(quantity));
     sizes.fold(0.0, |most, size| if size.is_finite() { most.max(size) } else { f64::INFINITY })
+}
+
+/// Power of all forces but those of constraints in the motion of `state` [W]: `residual` is what they lack.
+fn power_of(system: &System, state: &State, residual: &[f64]) -> f64 {
+    let layout = system.layout();
+    let nodes = NodeId::enumerate(state.kinematics.nodes.iter()).map(|(node, motion)| {
+        let rows = layout.rows_of_node(node).iter().zip(&motion.twist);
+        rows.map(|(&row, velocity)| if row == LOCKED { 0.0 } else { residual[row as usize] * velocity }).sum()
+    });
+    let coordinates = CoordinateId::enumerate(state.kinematics.coordinates.iter())
+        .map(|(own, motion)| residual[layout.row_of_coordinate(own)] * motion.rate);
+    -nodes.chain(coordinates).sum::<f64>()
 }
 
 /// Moves the state by a part of a correction.

@@ -2,6 +2,7 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::errors::{Warning, report_since};
+use crate::settings::Problem;
 
 /// Has no state: the energy balance is part of the simulation's state.
 struct EnergySurplus;
@@ -14,8 +15,10 @@ impl Monitor for EnergySurplus {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let [_, after] = step.energy_balance;
         let (surplus, turned_over) = (after.surplus, after.turned_over);
-        let (now, remedy) =
-            (step.end.kinematics.time, || step.problem.settings.resolution_remedy().to_owned());
+        let Problem { system, settings } = step.problem;
+        let (now, remedy) = (step.end.kinematics.time, || {
+            settings.resolution_remedy(!system.contacts().is_empty()).to_owned()
+        });
         // A surplus at the start may be small compared with what follows.
         report_since!(
             warnings,

@@ -427,7 +427,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         let free = root != ground;
         if free && statics {
             let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
-            let help = "add a joint or spring that connects it to \"ground\"; a clamp of one node carries only what the loads on it lack in balance";
+            let help = "add a joint or spring that connects it to \"ground\"; a clamp of one node carries only what the loads on it lack in balance; `lissom reduce` and `modes` take parts that are free with `--unset analysis --set analysis.kind=modes`";
             context.fail::<()>(part.span, message, help);
         } else if free && sizes.get(&root) == Some(&1) && parts.len() > 1 {
             let problem =

@@ -16,6 +16,8 @@ use crate::text::report::{Located, Problem};
 
 /// Square of the speed of sound below which a material is hardly a solid [m²/s²]: soft rubber has 60, steel with E in MPa 27.
 const SOFTEST: f64 = 30.0;
+/// Relative error of moments in tables of three digits or more.
+const ROUNDED: f64 = 1e-3;
 
 pub(super) fn materials(context: &Context<'_>) -> Vec<Material> {
     each(context, "materials", |reader, name| {
@@ -169,7 +171,7 @@ fn general(reader: &Reader<'_, '_>) -> Option<SectionProperties> {
 /// the others. A section that turns feels the difference: in the modes of a blade it is a force that is not there.
 fn warn_of_moments(reader: &Reader<'_, '_>, node: &crate::text::Node, mass: &Matrix6) {
     let moments = mass.diagonal().fixed_rows::<3>(3).into_owned();
-    if 2.0 * moments.max() > moments.sum() * (1.0 + 1e-6) {
+    if 2.0 * moments.max() > moments.sum() * (1.0 + ROUNDED) {
         let message = format!(
             "{} belongs to no section: one of its moments {}, {} and {} exceeds the sum of the others",
             reader.words("mass"),

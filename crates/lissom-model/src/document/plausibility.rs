@@ -10,7 +10,7 @@ use lissom_motion::Vector3;
 use crate::outputs::entry::{Output, OutputSource};
 use crate::parts::context::Context;
 use crate::reading::mesh_nodes::nodes_at;
-use crate::text::report::{Problem, Span};
+use crate::text::report::{Located, Problem, Span};
 
 /// Gravity above this is that in mm/s² [m/s²].
 const MAX_GRAVITY: f64 = 1000.0;
@@ -26,6 +26,8 @@ const MAX_EXTENT: (f64, f64) = (200.0, 20.0);
 const JOINT_TO_EXTENT: f64 = 5.0;
 /// Distance of a point of an output from its body beyond the body's radius of gyration, by this factor.
 const POINT_TO_GYRATION: f64 = 5.0;
+/// Usual sizes of parts with a mesh [m].
+const MESH_SIZES: std::ops::Range<f64> = 1e-4..500.0;
 /// Moving parts of a contact from which on a scheme for many contacts pays.
 const MANY_PARTS: usize = 8;
 /// Speeds of a drive that are probably in degrees per second.
@@ -45,6 +47,9 @@ pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places)
         many_contacts,
         samples,
         ropes,
+        slack_ropes,
+        large_meshes,
+        jams,
     ]
     .into_iter()
     .flat_map(|find| find(document, places));
@@ -182,10 +187,13 @@ fn inertias(document: &Document, places: &Places) -> Vec<Doubt> {
         let is_beyond = extent > 0.0 && radius > GYRATION_TO_EXTENT * extent;
         (body.mass > 0.0 && (is_large || is_beyond)).then(|| {
             let message = format!(
-                "body `{}` of {} kg has a radius of gyration of {radius:.3} m, as if its mass were that far from its centre",
-                body.name.value, body.mass
+                "body `{}` of {} kg has an inertia as if its mass were {radius:.3} m from its centre{}",
+                body.name.value,
+                body.mass,
+                if is_large { String::new() } else { format!(", and all parts are within {extent:.3} m") }
             );
-            (body.name.span, message, "write `inertia` in kg m²: 1 kg mm² is 1e-6 kg m²".to_owned())
+            let help = "write `inertia` in kg m²: 1 kg mm² is 1e-6 kg m²; ignore this for the inertia of a motor behind its gear";
+            (body.name.span, message, help.to_owned())
         })
     };
     document.bodies.iter().filter_map(doubt).collect()
@@ -295,6 +303,79 @@ fn ropes(document: &Document, _: &Places) -> Vec<Doubt> {
         (own.name.span, message, "add `stiffness`, E A over the length for a steel rope [N/m]".to_owned())
     };
     document.springs.iter().filter(is_loose).map(doubt).collect()
+}
+
+/// Solids and shells from files that are as large as buildings, and those too small to hold.
+fn large_meshes(document: &Document, _: &Places) -> Vec<Doubt> {
+    let named = document
+        .shells
+        .iter()
+        .map(|own| &own.name)
+        .chain(document.elastic_solids.iter().map(|own| &own.name));
+    let doubt = |name: &Located<String>| {
+        let positions = &document.mesh(&name.value)?.positions;
+        let first = positions.first()?;
+        let size = positions.iter().map(|own| (own - first).norm()).fold(0.0, f64::max);
+        (!MESH_SIZES.contains(&size)).then(|| {
+            let message = format!("the mesh of `{}` is {size:.3e} m large", name.value);
+            (name.span, message, "write lengths in m: `scale = 1e-3` for a file in millimetres".to_owned())
+        })
+    };
+    named.filter_map(doubt).collect()
+}
+
+/// Ropes that are slack where the search for an equilibrium starts, so that they have no stiffness there.
+fn slack_ropes(document: &Document, _: &Places) -> Vec<Doubt> {
+    let doubt = |own: &Component| {
+        let points: Option<Vec<Vector3>> = own.attachment.nodes.iter().map(|node| node.at).collect();
+        let way: f64 = points?.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let length = own.parameters.function("length").ok()?.value(document.analysis.start);
+        (own.kind.value == "rope" && length > way && document.starts_in_equilibrium()).then(|| {
+            let message = format!(
+                "rope `{}` of {length:.3} m is slack at the start, where its points are {way:.3} m apart: the search for an equilibrium \
+                 finds no resistance there",
+                own.name.value
+            );
+            (own.name.span, message, "write positions at which the rope is tight".to_owned())
+        })
+    };
+    document.springs.iter().filter_map(doubt).collect()
+}
+
+/// Gears that lock against the wheel whose inertia drives them, so that no motion satisfies their law: I₁ + (2 - 1/η) I₂ r² < 0. The
+/// inertias are those of the bodies that hinges on the ground hold, without what else moves with them.
+fn jams(document: &Document, _: &Places) -> Vec<Doubt> {
+    let inertia = |name: &str| {
+        let joint = document.joints.iter().find(|joint| joint.name.value == name)?;
+        let [base, tip] = joint.attachment.nodes.as_slice() else { return None };
+        let (NodeReference::Ground, NodeReference::Body(body)) = (&base.node.value, &tip.node.value) else {
+            return None;
+        };
+        let body = document.bodies.iter().find(|own| own.name.value == *body)?;
+        let axis = joint.attachment.axes.first()?.value.try_normalize(0.0)?;
+        let arm = (body.position + body.axes * body.center_of_mass - tip.at?).cross(&axis);
+        let own = body.axes.transpose() * axis;
+        (joint.kind.value == "revolute")
+            .then(|| own.dot(&(body.inertia * own)) + body.mass * arm.norm_squared())
+    };
+    let doubt = |gear: &Component| {
+        let efficiency = gear.parameters.number("efficiency").ok().filter(|_| gear.kind.value == "gear")?;
+        let ratio = gear.parameters.number("ratio").ok()?;
+        let [joint, other] = gear.attachment.joints()[..] else { return None };
+        let behind = inertia(other)? * ratio * ratio;
+        let least = 1.0 / (2.0 + inertia(joint)? / behind);
+        (efficiency < least).then(|| {
+            let message = format!(
+                "gear `{}` jams: it locks where `{other}` drives it, and the inertia behind `{other}` is more than it can stop",
+                gear.name.value
+            );
+            let help = format!(
+                "raise `efficiency` above {least:.3}, or the inertia at `{joint}`; elasticity of the shaft between them avoids it, too"
+            );
+            (gear.name.span, message, help)
+        })
+    };
+    document.joints.iter().filter_map(doubt).collect()
 }
 
 /// Points of outputs that are far from their body, and would be near it in body axes.

@@ -114,16 +114,26 @@ fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<UnitEquations>), Box<
     for (variable, _) in &entry.inputs {
         inputs.push(variables.find(variable, "input", |own| own.causality == "input")?);
     }
-    let missing = description.variables.iter().find(|own| {
-        own.causality == "input"
-            && own.variable.is_some()
-            && (mode == UnitMode::CoSimulation || own.is_continuous)
-            && !entry.inputs.iter().any(|(given, _)| given.value == own.name)
-    });
-    if let Some(missing) = missing {
-        let start = missing.start.as_deref().unwrap_or("0");
-        let message = format!("unit `{name}` has the input `{}`, which is not in `inputs`", missing.name);
-        let help = format!("add `\"{}\" = {start}` to `inputs`, or an expression", missing.name);
+    let missing: Vec<_> = description
+        .variables
+        .iter()
+        .filter(|own| {
+            own.causality == "input"
+                && own.variable.is_some()
+                && (mode == UnitMode::CoSimulation || own.is_continuous)
+                && !entry.inputs.iter().any(|(given, _)| given.value == own.name)
+        })
+        .collect();
+    if !missing.is_empty() {
+        let names: Vec<String> = missing.iter().map(|own| format!("`{}`", own.name)).collect();
+        let lines = missing
+            .iter()
+            .map(|own| format!("\"{}\" = {}", own.name, own.start.as_deref().unwrap_or("0")))
+            .collect::<Vec<_>>();
+        let (noun, verb) = if names.len() == 1 { ("input", "is") } else { ("inputs", "are") };
+        let message =
+            format!("unit `{name}` has the {noun} {}, which {verb} not in `inputs`", names.join(", "));
+        let help = format!("add `{}` to `inputs`, or expressions", lines.join(", "));
         return Err(Box::new(Problem::error(entry.name.span, message).help(help)));
     }
     let mut outputs = Vec::new();

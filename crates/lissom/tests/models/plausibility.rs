@@ -50,7 +50,11 @@ fn slips_are_named_with_the_unit_that_is_read() {
     for (from, to, words) in [
         ("-9.81", "-9810", "gravity is 9810 m/s²"),
         ("[bodies.arm]", &*material("2.1e11", "7.85e-9"), "density of 7.85e-9 kg/m³"),
-        ("[0.02, 0.02, 0.02]", "[2e4, 2e4, 2e4]", "body `arm` of 2 kg has a radius of gyration of 100.000 m"),
+        (
+            "[0.02, 0.02, 0.02]",
+            "[2e4, 2e4, 2e4]",
+            "body `arm` of 2 kg has an inertia as if its mass were 100.000 m from its centre",
+        ),
         ("position = [1, 0, 0]", "position = [1000, 0, 0]", "and the heaviest, `arm`, has 2 kg"),
         ("at = [1, 0, 0]", "at = [1000, 0, 0]", "`elbow` is 999.500 m from `arm`, which it holds"),
         ("[analysis]", drive, "`motor` turns by 57.3 revolutions per second: angles are in radians"),
@@ -60,7 +64,6 @@ fn slips_are_named_with_the_unit_that_is_read() {
     }
 }
 
-/// Whatever the kinds of its joints; an equation may begin to move them later.
 /// Numbers of the fields beside mechanics, each in the unit that is used there.
 #[test]
 fn numbers_in_units_of_the_trade_are_named() {
@@ -91,6 +94,45 @@ fn numbers_in_units_of_the_trade_are_named() {
     }
 }
 
+#[test]
+fn meshes_as_large_as_buildings_are_named() {
+    let roof = |side: f64| {
+        format!(
+            "lissom = 1\n[materials.steel]\nE = 2e11\nnu = 0.3\ndensity = 7850\n[shells.roof]\nsurface = [\"{side}*u\", \"{side}*v\", \"0\"]\n\
+             divisions = [2, 2]\nthickness = {}\nmaterial = \"steel\"\n[joints.edge]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"roof.u0\"\n\
+             [analysis]\nkind = \"dynamics\"\nend = 1\n",
+            0.01 * side
+        )
+    };
+    assert_eq!(warnings(&roof(2.0)), "");
+    let found = warnings(&roof(2000.0));
+    assert!(found.contains("the mesh of `roof` is 2.828e3 m large"), "{found}");
+}
+
+/// A worm whose wheel has more inertia than it can stop: I₁ + (2 - 1/η) I₂ r² < 0.
+#[test]
+fn a_worm_that_jams_is_named() {
+    let shaft = |name: &str, inertia: f64| {
+        format!(
+            "[bodies.{name}]\nmass = 1\ninertia = [{inertia}, {inertia}, {inertia}]\n[joints.of_{name}]\nkind = \"revolute\"\nbase = \"ground\"\n\
+             tip = \"{name}\"\naxis = \"z\"\n"
+        )
+    };
+    let gear = |efficiency: f64| {
+        format!(
+            "lissom = 1\n{}{}[joints.worm]\nkind = \"gear\"\njoint = \"of_a\"\nother = \"of_b\"\nratio = 0.1\nefficiency = {efficiency}\n\
+             [loads.drive]\nkind = \"joint_torque\"\njoint = \"of_a\"\ntorque = 1\n[analysis]\nkind = \"dynamics\"\nend = 1\n",
+            shaft("a", 0.001),
+            shaft("b", 10.0)
+        )
+    };
+    // 1/(2 + 0.001/0.1)
+    let found = warnings(&gear(0.49));
+    assert!(found.contains("gear `worm` jams") && found.contains("above 0.498"), "{found}");
+    assert_eq!(warnings(&gear(0.499)), "");
+}
+
+/// Whatever the kinds of its joints; an equation may begin to move them later.
 #[test]
 fn a_model_without_a_cause_of_motion_is_named() {
     let law =

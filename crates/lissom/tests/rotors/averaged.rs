@@ -113,6 +113,16 @@ fn diagrams_are_averaged_on_request_and_a_driven_rotor_that_turns_freely_has_non
     assert!(error.contains("steady rotation"), "{error}");
 }
 
+/// Loads that do not balance at the speed are named by their power.
+#[test]
+fn a_rotor_out_of_balance_names_its_power() {
+    let text = "lissom = 1\n[bodies.disc]\nmass = 1\ninertia = [1, 1, 2]\nangular_velocity = [0, 0, 3]\n\
+        [joints.bearing]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"disc\"\naxis = \"z\"\n\
+        [loads.motor]\nkind = \"joint_torque\"\njoint = \"bearing\"\ntorque = 5\n[analysis]\nkind = \"dynamics\"\nend = 1\n";
+    let error = of(text, OperatingPoint::Rotation).expect_err("it accelerates").to_string();
+    assert!(error.contains("loads do 1.5e1 W") && error.contains("prescribed_rotation"), "{error}");
+}
+
 /// A mean over the azimuth is no state, and two blades have no coordinates for it.
 #[test]
 fn what_has_no_mean_is_reported() {

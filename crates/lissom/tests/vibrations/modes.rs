@@ -578,3 +578,31 @@ fn a_free_part_under_a_load_has_the_modes_of_the_unloaded_one() {
     assert!(unloaded.warnings.is_empty());
     assert_eq!(frequencies(&report), frequencies(&unloaded));
 }
+
+/// States of a controller decay slower than the motion, and are not what is asked for.
+#[test]
+fn decays_of_states_are_found_besides() {
+    let states = |k: u32| format!("[states.s{k}]\nderivative = \"-0.0{k}*s{k}\"\nstart = 0\n");
+    let text = r#"
+lissom = 1
+[bodies.a]
+mass = 1
+inertia = [1, 1, 1]
+[joints.j]
+kind = "prismatic"
+base = "ground"
+tip = "a"
+axis = [1, 0, 0]
+[springs.k]
+kind = "coordinate_dynamics"
+coordinates = ["j.displacement"]
+stiffness = 100
+damping = 0.1
+[analysis]
+kind = "modes"
+"#;
+    let text = text.to_owned() + &(1..=6).map(states).collect::<String>();
+    let found = frequencies(&find(&text, OperatingPoint::Static, 1));
+    let oscillations: Vec<f64> = found.iter().copied().filter(|frequency| *frequency > 1.0).collect();
+    assert!(oscillations.len() == 1 && (oscillations[0] - 10.0 / TAU).abs() < 1e-9, "{found:?}");
+}

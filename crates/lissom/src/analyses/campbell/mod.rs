@@ -55,7 +55,7 @@ pub struct CampbellRequest {
     /// Path of a number in the model file, its first and last value, and the number of values.
     #[cfg_attr(feature = "clap", arg(long, value_name = "PATH=FROM:TO:VALUES"))]
     pub vary: Variation,
-    /// Number of modes, the lowest first.
+    /// Number of modes, the lowest first, and decays of first-order states among them besides.
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value_t = 8, value_parser = counts(1..)))]
     pub count: usize,
     /// Compute the modes nearest to this frequency [default: the lowest ones].

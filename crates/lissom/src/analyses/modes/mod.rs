@@ -62,7 +62,7 @@ Kinds: rigid (frequency 0), oscillation, decay (overdamped), divergence and flut
 Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or modes were missed.")
 )]
 pub struct ModeRequest {
-    /// Number of modes, the lowest first [default: 20].
+    /// Number of modes, the lowest first, and decays of first-order states among them besides [default: 20].
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = crate::analyses::interface::counts(1..)))]
     pub count: Option<usize>,
     /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file), `averaged-rotation` (over the azimuth) or a time of the model's analysis [s].

@@ -159,7 +159,14 @@ impl Geom {
             }
             _ => {}
         }
-        let (placed, [a, b, c]) = self.placed()?;
+        let (placed, [a, b, c]) = match self.placed() {
+            Ok(placed) => placed,
+            Err(error) if touch.is_none() => {
+                meshes.notes.push(format!("a shape that is not drawn: {}", error.message));
+                return Ok(None);
+            }
+            Err(error) => return Err(error),
+        };
         let shape = match self.kind.as_str() {
             "sphere" => VisualShape::Sphere(a),
             "capsule" => VisualShape::Capsule { radius: a, length: 2.0 * b },

@@ -232,7 +232,8 @@ fn motor(node: &Node, number: usize, robot: &Robot) -> Result<Option<Motor>, Imp
         input = Some([middle - half, middle + half]).filter(|_| share[0] > 0.0).or(input);
     }
     let force = limits("forcerange", "forcelimited")?;
-    Ok(Some(Motor { joint, number, gear, gain, bias, input, force, start: 0.0 }))
+    let name = node.name().map(str::to_owned);
+    Ok(Some(Motor { name, joint, number, gear, gain, bias, input, force, start: 0.0 }))
 }
 
 /// Joints that follow others become mimic joints; bodies that are connected close loops; other equalities are reported.

@@ -20,7 +20,12 @@ pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
                 let name = node.name().map_or_else(|| format!("{}{count}", node.tag()), str::to_owned);
                 robot.sensors.push(Sensor { name, quantity });
             }
-            None => others.push(node.tag().to_owned()),
+            None => {
+                let site = node.element.text("site").filter(|site| !sites.contains_key(*site));
+                let missing = site
+                    .map_or_else(String::new, |site| format!(" of the site `{site}`, which is not there"));
+                others.push(format!("{}{missing}", node.tag()));
+            }
         }
     }
     let all = counted(others.into_iter());
