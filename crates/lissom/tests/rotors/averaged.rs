@@ -120,7 +120,7 @@ fn a_rotor_out_of_balance_names_its_power() {
         [joints.bearing]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"disc\"\naxis = \"z\"\n\
         [loads.motor]\nkind = \"joint_torque\"\njoint = \"bearing\"\ntorque = 5\n[analysis]\nkind = \"dynamics\"\nend = 1\n";
     let error = of(text, OperatingPoint::Rotation).expect_err("it accelerates").to_string();
-    assert!(error.contains("loads do 1.5e1 W") && error.contains("prescribed_rotation"), "{error}");
+    assert!(error.contains("loads do 15 W") && error.contains("prescribed_rotation"), "{error}");
 }
 
 /// A mean over the azimuth is no state, and two blades have no coordinates for it.
