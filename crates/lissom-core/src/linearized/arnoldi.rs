@@ -15,7 +15,7 @@ use num_complex::Complex64;
 use super::completion::Spectrum;
 use super::krylov::{Krylov, Operator, complex, product};
 use super::lanczos::{VIOLATED, round_off};
-use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes, OVERDAMPED};
+use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::{LinearError, LinearModel};
 use super::schur::schur;
 use super::shifted::{GeneralShift, Shift, small_square};
@@ -214,11 +214,6 @@ struct Estimate {
     residual: f64,
 }
 
-/// Whether a mode is one of those asked for: first-order states add decays, often slower than all motions, which are found besides.
-fn counts(model: &LinearModel<'_>, mode: &Mode) -> bool {
-    mode.damping < OVERDAMPED || model.system.layout().states().next().is_none()
-}
-
 /// Computes the modes nearest to the shift.
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
     match options.shift {
@@ -265,7 +260,7 @@ fn find_near<'a, S: Field>(
             let found = estimates.iter().filter_map(|estimate| mode(model, &mut operator, &krylov, estimate));
             modes = found.collect();
             keep_independent_rigid_modes(&mut modes);
-            if modes.iter().filter(|mode| counts(model, mode)).count() >= options.count || is_exhausted {
+            if modes.iter().filter(|mode| model.counts(mode)).count() >= options.count || is_exhausted {
                 is_empty = modes.is_empty() && krylov.order() > 0;
                 break 'shifts;
             }
@@ -293,7 +288,7 @@ fn find_near<'a, S: Field>(
     }
     let mut left = options.count;
     let last = modes.iter().position(|mode| {
-        left -= usize::from(counts(model, mode));
+        left -= usize::from(model.counts(mode));
         left == 0
     });
     modes.truncate(last.map_or(modes.len(), |last| last + 1));

@@ -3,11 +3,16 @@
 use num_complex::Complex64;
 
 use super::lanczos::Found;
-use super::mode::{Mode, ModeError, ModeOptions, Modes};
+use super::mode::{Mode, ModeError, ModeOptions, Modes, OVERDAMPED};
 use super::model::LinearModel;
 use super::{arnoldi, lanczos};
 
 impl LinearModel<'_> {
+    /// Whether a mode is one of those asked for: first-order states add decays, often slower than all motions, which are found besides.
+    pub fn counts(&self, mode: &Mode) -> bool {
+        mode.damping < OVERDAMPED || self.system.layout().states().next().is_none()
+    }
+
     /// Natural modes: real and counted if the model is conservative, otherwise complex.
     ///
     /// # Errors

@@ -55,7 +55,7 @@ pub struct CampbellRequest {
     /// Path of a number in the model file, its first and last value, and the number of values.
     #[cfg_attr(feature = "clap", arg(long, value_name = "PATH=FROM:TO:VALUES"))]
     pub vary: Variation,
-    /// Number of modes, the lowest first, and decays of first-order states among them besides.
+    /// Number of modes, the lowest first, without decays of first-order states.
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value_t = 8, value_parser = counts(1..)))]
     pub count: usize,
     /// Compute the modes nearest to this frequency [default: the lowest ones].
@@ -311,8 +311,9 @@ impl Search<'_> {
         let find = |reached: LinearizationPoint<'_, '_>| -> Result<Option<Point>, ModesError> {
             let options = ModeOptions { count, shift: self.request.shift };
             let Reliable { found, at_rest, warnings } = in_rotation(reached.model, about, &options)?;
-            let found = found.modes;
             let model = at_rest.as_ref().unwrap_or(reached.model);
+            // Decays of states would hide the lines of the motion.
+            let found: Vec<Mode> = found.modes.into_iter().filter(|mode| model.counts(mode)).collect();
             let at_value = warnings
                 .into_iter()
                 .filter(|own| *own != AnalysisWarning::AxesAtRest)
