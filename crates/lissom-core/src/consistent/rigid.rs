@@ -16,12 +16,11 @@ use lissom_solver::{Group, LinearSolver, Pattern, SYMMETRIC, Structure};
 
 use crate::joints::constraint::{Constraint, Port};
 use crate::kinematics::{Kinematics, LOCKED};
+use crate::round_off;
 use crate::system::System;
 
-/// Derivatives by a coordinate below this, relative to that of the equation that determines it, are round-off.
-const NO_SLOPE: f64 = 1e-13;
 /// Smallest pivot, relative to its terms, with which a solution has the accuracy of a correction.
-const WELL_CONDITIONED: f64 = 1e-6;
+pub(crate) const WELL_CONDITIONED: f64 = 1e-6;
 /// Stands for what is not among the parts.
 const NONE: usize = usize::MAX;
 
@@ -161,7 +160,9 @@ impl RigidMatrix {
                 |local: usize| (0..constraint.equations()).map(|e| slope(e, local)).fold(0.0, f64::max);
             let mut group = Vec::new();
             for e in 0..constraint.equations() {
-                let mut own = free.iter().filter(|&&(local, _)| slope(e, local) > NO_SLOPE * largest(local));
+                let mut own = free
+                    .iter()
+                    .filter(|&&(local, _)| slope(e, local) > round_off::MATRIX_ENTRY * largest(local));
                 let determines = own.next();
                 if own.next().is_some() || determines.is_some_and(|own| eliminated[own.1].1 != NONE) {
                     return None;
@@ -289,7 +290,9 @@ impl RigidMatrix {
                     equation.slope = row[local];
                     let mut others =
                         gradient.chunks_exact(size).enumerate().filter(|own| own.0 != equation.number);
-                    if others.any(|(_, row)| row[local].abs() > NO_SLOPE * equation.slope.abs()) {
+                    if others
+                        .any(|(_, row)| row[local].abs() > round_off::MATRIX_ENTRY * equation.slope.abs())
+                    {
                         return None;
                     }
                 }
@@ -379,7 +382,7 @@ fn inverse_of(rows: &[u32; 6], entry: &impl Fn(usize, usize) -> f64) -> Option<M
     let matrix = Matrix6::from_fn(|i, j| {
         if is_free(i, j) { entry(rows[i] as usize, rows[j] as usize) } else { f64::from(u8::from(i == j)) }
     });
-    if (matrix - matrix.transpose()).amax() > 1e-14 * matrix.amax() {
+    if (matrix - matrix.transpose()).amax() > round_off::MATRIX_ENTRY * matrix.amax() {
         return None;
     }
     let inverse = matrix.cholesky()?.inverse();

@@ -12,16 +12,13 @@ use lissom_solver::{Pattern, SolverKind};
 
 use super::stiff_parts::StiffParts;
 use crate::consistent::redundancy::Redundancy;
-use crate::consistent::rigid::{self, RigidMatrix};
+use crate::consistent::rigid::{self, RigidMatrix, WELL_CONDITIONED};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, Layout, MotionChange};
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Blend, Scratch, State, Sum, System, TangentAssembler};
-
-/// Smallest pivot, relative to its terms, with which solutions are accurate to round-off.
-const WELL_CONDITIONED: f64 = 1e-6;
 
 /// Relative change of velocities by the filter below which it is omitted: steps resolve such vibrations, so that their forces are more exact
 /// without it.
