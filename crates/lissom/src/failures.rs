@@ -318,7 +318,7 @@ catalogued! {
             cause: "`{path}` contains {content}",
             remedy: "{remedy}",
             meaning: "The results contain no recorded motion of a run.",
-            advice: "Run the model without `--no-plots`; shapes of modes are shown by `lissom view` and `lissom snapshot`.",
+            advice: "Run the model again; shapes of modes are shown by `lissom view` and `lissom snapshot`.",
         }
     } wraps {
         File { 0 => error } => error.diagnostic(),

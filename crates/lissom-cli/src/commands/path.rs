@@ -9,6 +9,7 @@ use lissom::model::output::CurveRecord;
 use lissom::{Diagnose, Document, FolderError, Model, ResultFolder, Writer};
 
 use super::outcome::{Exit, Failure, show_warnings, warn};
+use super::run::{MAX_PLOTS, not_drawn};
 use super::terminal::{self, Interrupt};
 use lissom::core::number::{Written, duration};
 
@@ -47,13 +48,10 @@ pub(super) fn run(
         warn(warning);
     }
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
-    let mut session = if wanted.plots {
-        // With both files the path can be displayed even after the program was killed.
-        folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
-        session.with_motion(Box::new(folder.motion().map_err(|error| unwritable(error.into()))?))
-    } else {
-        session
-    };
+    // With both files the path can be displayed even after the program was killed.
+    folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
+    let motion = folder.motion().map_err(|error| unwritable(error.into()))?;
+    let mut session = session.with_motion(Box::new(motion));
     let mut record = CurveRecord::default();
     let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
     if wanted.plots {
@@ -61,16 +59,18 @@ pub(super) fn run(
     }
     let mut watch = || if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let report = session.run(&mut writers, &mut watch);
-    if wanted.plots {
-        folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
-    }
+    folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
     folder.write_summary(&session.summary(summary, &report)).map_err(|error| unwritable(error.into()))?;
     let title = document.title.as_deref().unwrap_or(model.name());
     if !wanted.quiet {
         terminal::print(&render(title, &report, folder.path()));
     }
     if wanted.plots {
-        match folder.write_plots(&record, title) {
+        let not_drawn = not_drawn(&record, folder.path());
+        if !wanted.quiet {
+            terminal::print(&not_drawn);
+        }
+        match folder.write_plots(&record, title, MAX_PLOTS) {
             Err(error @ FolderError::Figure(_)) => warn(&error),
             other => other.map_err(unwritable)?,
         }

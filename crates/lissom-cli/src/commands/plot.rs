@@ -62,7 +62,7 @@ impl Plot {
             return Err(Failure::request("name a folder of results"));
         };
         if is_plain && others.is_empty() {
-            first.write_plots(&CurveRecord::from(record), title).map_err(failed)?;
+            first.write_plots(&CurveRecord::from(record), title, usize::MAX).map_err(failed)?;
             return Ok(Exit::Done);
         }
         let names = names(&self.folders);

@@ -15,7 +15,7 @@ use lissom::core::errors::InitialError;
 use lissom::core::number::{Written, duration, written};
 use lissom::model::document::AnalysisKind;
 use lissom::model::lower::check_run;
-use lissom::model::output::CurveRecord;
+use lissom::model::output::{CurveRecord, drawn_outputs};
 use lissom::model::scene::Scene;
 use lissom::motion::MotionRecorder;
 use lissom::start::{Assembly, Lowered, lower_with_units};
@@ -31,7 +31,7 @@ use super::terminal::{self, Bar, Interrupt};
 /// Simulate a model as specified in its table `[analysis]`.
 ///
 /// The results go to a folder: `history.csv` (time and all outputs), `summary.json` (steps, iterations, times,
-/// violations, energy), `motion.bin` and `scene.json` (for `lissom view`), and a plot of every output as SVG and
+/// violations, energy), `motion.bin` and `scene.json` (for `lissom view`), and plots of up to 20 outputs as SVG and
 /// PNG. They are also written for the time before a failure or Ctrl-C.
 #[derive(Args)]
 #[command(after_help = "\
@@ -66,7 +66,7 @@ pub(super) struct Run {
     #[arg(long, short)]
     quiet: bool,
 
-    /// Draw no plots and record no motion.
+    /// Draw no plots.
     #[arg(long)]
     no_plots: bool,
 
@@ -82,6 +82,23 @@ pub(super) struct Run {
     /// processors].
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
+}
+
+/// Outputs that are drawn after a run: pictures of hundreds of them would take longer than the run.
+pub(super) const MAX_PLOTS: usize = 20;
+
+/// A line about the outputs that are not drawn, and how they are; empty if all are.
+pub(super) fn not_drawn(record: &CurveRecord, folder: &Path) -> String {
+    let outputs = drawn_outputs(record.columns());
+    let Some(omitted @ [first, ..]) = outputs.get(MAX_PLOTS..) else { return String::new() };
+    let last =
+        omitted.last().filter(|last| *last != first).map_or(String::new(), |last| format!(" … {last}"));
+    let (count, folder) = (omitted.len(), folder.display());
+    format!(
+        "  {:<12}{MAX_PLOTS} of {} outputs; `lissom plot {folder}` also draws the other {count}: {first}{last}\n",
+        "plots",
+        outputs.len()
+    )
 }
 
 /// The data of a new or resumed run.
@@ -151,10 +168,8 @@ impl Run {
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
         let (folder, mut record) = task.open().map_err(unwritable)?;
-        let recorder = task
-            .plots
-            .then(|| MotionRecorder::new(&lowered, document.analysis.records.frames_per_second, io::sink()));
-        let scene = task.plots.then(|| Scene::of(&document, &lowered.placed()));
+        let recorder = MotionRecorder::new(&lowered, document.analysis.records.frames_per_second, io::sink());
+        let scene = Scene::of(&document, &lowered.placed());
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = task.summary(&document, &lowered);
         let ready = Instant::now();
@@ -175,9 +190,7 @@ impl Run {
             session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, &error))?;
             record.set_columns(session.columns());
         }
-        if let Some((recorder, scene)) = recorder.zip(scene) {
-            session.write_states_to(Box::new(task.motion(&folder, recorder, &scene)?));
-        }
+        session.write_states_to(Box::new(task.motion(&folder, recorder, &scene)?));
         // This summary remains if the program is killed.
         summary::of_beginning(&mut summary);
         folder.write_summary(&summary).map_err(unwritable)?;
@@ -212,6 +225,9 @@ impl Run {
         if !self.quiet {
             let heading = if title.is_empty() { task.model.name() } else { title };
             terminal::print(&render((heading, assembly), &session, &report, &spent, folder.path()));
+            if task.plots {
+                terminal::print(&not_drawn(&record, folder.path()));
+            }
         }
         kept?;
         noted.map_err(unwritable)?;
@@ -258,7 +274,7 @@ impl Run {
         if !plots {
             return Ok(());
         }
-        match folder.write_plots(record, title) {
+        match folder.write_plots(record, title, MAX_PLOTS) {
             // Without plots or without the ability to draw, the tables are complete.
             Err(error @ FolderError::Figure(_)) => {
                 if !self.quiet {
@@ -350,7 +366,7 @@ impl Task {
             motion_length,
             session,
         };
-        let motion = plots.then(|| folder.motion_path());
+        let motion = Some(folder.motion_path());
         Some(CheckpointFile::new(&self.folder, &folder.history_path(), motion, parsed, frame))
     }
 }

@@ -111,16 +111,19 @@ fn frames_are_as_many_as_asked_for() {
 }
 
 #[test]
-fn no_motion_is_left_from_a_former_run() {
+fn a_run_without_plots_replaces_the_motion_of_a_former_run() {
     let folder = Folder::new("motion-former");
     folder.write("cantilever.toml", CANTILEVER);
     run(&folder, "cantilever.toml", &[]);
     let out = folder.path().join("out");
-    let there = |name: &str| out.join(name).exists();
-    assert!(there("motion.bin") && there("scene.json"));
-    let ended = lissom(&["run", "cantilever.toml", "--out", "out", "--no-plots"], folder.path());
+    let former = fs::read(out.join("motion.bin")).unwrap();
+    let set = ["--no-plots", "--set", "gravity=[0, 0, -1]"];
+    let ended = lissom(&[&["run", "cantilever.toml", "--out", "out"], &set[..]].concat(), folder.path());
     assert_eq!(ended.code, 0, "{}", ended.errors);
-    assert!(!there("motion.bin") && !there("scene.json") && there("history.csv"));
+    assert!(fs::read(out.join("motion.bin")).unwrap() != former && out.join("scene.json").exists());
+    assert!(
+        !fs::read_dir(&out).unwrap().any(|file| file.unwrap().path().extension() == Some("svg".as_ref()))
+    );
     assert_eq!(summary(&out)["stopped"], "end");
 }
 

@@ -86,8 +86,10 @@ fn a_path_is_seen_by_its_load_factors() {
     let path = stiffer.scene.path.unwrap();
     assert_eq!((path.name.as_str(), path.values.last()), ("springs.left.stiffness", Some(&2000.0)));
     assert!(stiffer.scene.loads.is_empty());
-    // Without its motion there is nothing to be drawn.
+    // The motion is also recorded without plots.
     let bare = lissom(&["run", "truss.toml", "--no-plots", "-q"], folder.path());
-    assert!(bare.code == 0 && !out.join("motion.bin").exists());
+    assert!(bare.code == 0 && out.join("motion.bin").exists());
+    assert_eq!(lissom(&["snapshot", "out/truss"], folder.path()).code, 0);
+    std::fs::remove_file(out.join("motion.bin")).unwrap();
     assert_eq!(lissom(&["snapshot", "out/truss"], folder.path()).code, 2);
 }

@@ -4,6 +4,27 @@ use std::fs;
 
 use crate::support::{CANTILEVER, Folder, example, lissom, summary};
 
+/// Pictures of hundreds of outputs take longer than their run: it draws the first ones and names the others.
+#[test]
+fn a_run_draws_at_most_twenty_outputs() {
+    let folder = Folder::new("plot-many");
+    let outputs: Vec<String> =
+        (1..=23).map(|k| format!("[outputs.o{k}]\nkind = \"position\"\nof = \"ball\"\n")).collect();
+    let ball = "lissom = 1\n[bodies.ball]\nmass = 1\ninertia = [1, 1, 1]\nvelocity = [1, 0, 0]\n";
+    let analysis = "[analysis]\nkind = \"dynamics\"\nend = 0.1\nstep = 0.01\n";
+    folder.write("many.toml", &[ball, &outputs.concat(), analysis].concat());
+    let drawn = || {
+        let files = fs::read_dir(folder.path().join("out")).unwrap().map(|file| file.unwrap().path());
+        files.filter(|path| path.extension() == Some("svg".as_ref())).count()
+    };
+    let run = lissom(&["run", "many.toml", "--out", "out"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let words = "plots       20 of 23 outputs; `lissom plot out` also draws the other 3: o21 … o23";
+    assert!(run.output.contains(words) && drawn() == 20, "{}", run.output);
+    let plot = lissom(&["plot", "out"], folder.path());
+    assert!(plot.code == 0 && drawn() == 23, "{}", plot.errors);
+}
+
 #[test]
 fn paths_spectra_and_several_results_are_drawn() {
     let folder = Folder::new("plot-asked");

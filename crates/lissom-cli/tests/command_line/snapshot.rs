@@ -306,6 +306,7 @@ fn what_cannot_be_drawn_is_refused() {
     let modes = lissom(&["modes", "bar.toml", "--out", "modes", "-q"], folder.path());
     assert_eq!(modes.code, 0, "{}", modes.errors);
     assert_eq!(lissom(&["run", "bar.toml", "--no-plots", "-q", "--out", "plain"], folder.path()).code, 0);
+    fs::remove_file(folder.path().join("plain/motion.bin")).unwrap();
     assert_eq!(lissom(&["run", "bar.toml", "-q", "--out", "out"], folder.path()).code, 0);
     for (args, words) in [
         (vec!["snapshot", "bar.toml", "--out", "bar.jpg"], ".svg or .png"),
@@ -316,7 +317,7 @@ fn what_cannot_be_drawn_is_refused() {
         (vec!["snapshot", "out", "--initial"], "folder of results"),
         (vec!["snapshot", "modes", "--strip", "3"], "natural modes"),
         (vec!["snapshot", "out", "--mode", "1"], "contains no natural modes"),
-        (vec!["snapshot", "plain"], "--no-plots"),
+        (vec!["snapshot", "plain"], "without recorded motion"),
         (vec!["snapshot", "nowhere"], "there is no such file"),
     ] {
         let snapshot = lissom(&args, folder.path());

@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::open_trees;
 use super::redundancy::Redundancy;
+use super::rigid::RigidMatrix;
 use crate::errors::InitialError;
 use crate::errors::step_error::pivot_hint;
 use crate::interrupt::Interrupted;
@@ -53,8 +54,10 @@ pub struct ConsistentInitialConditions {
     pub(crate) weights: Vec<f64>,
     /// Initial values of joints for the differentiation of constraints.
     starts: JointStarts,
-    /// Positions of the factor; none if it is not that of all inertias, or served for too long.
-    pub(crate) near: Option<Kinematics>,
+    /// Positions of the factor; none if it is not that of all inertias.
+    factored_at: Option<Kinematics>,
+    /// The matrix of rigid parts, if the system consists of them; none before it is needed.
+    rigid: Option<Option<Box<RigidMatrix>>>,
 }
 
 impl ConsistentInitialConditions {
@@ -76,7 +79,8 @@ impl ConsistentInitialConditions {
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             weights: Vec::new(),
             starts: JointStarts::default(),
-            near: None,
+            factored_at: None,
+            rigid: None,
         }
     }
 
@@ -87,11 +91,14 @@ impl ConsistentInitialConditions {
         inertias: Inertias,
     ) -> Result<(), InitialError> {
         let at = &state.kinematics;
-        if inertias == Inertias::All && self.near.as_ref().is_some_and(|near| has_constraints_of(near, at)) {
+        if inertias == Inertias::All
+            && self.factored_at.as_ref().is_some_and(|own| has_constraints_of(own, at))
+        {
             return Ok(());
         }
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
+            self.rigid = None;
         }
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
@@ -99,7 +106,7 @@ impl ConsistentInitialConditions {
         self.linearization = linearization;
         self.weigh(system, inertias);
         self.factor_weights(system)?;
-        self.near = Some(at.clone()).filter(|_| inertias == Inertias::All);
+        self.factored_at = Some(at.clone()).filter(|_| inertias == Inertias::All);
         Ok(())
     }
 
@@ -129,7 +136,7 @@ impl ConsistentInitialConditions {
     }
 
     pub(crate) fn factor_weights(&mut self, system: &System) -> Result<(), InitialError> {
-        self.near = None;
+        self.factored_at = None;
         let layout = system.layout();
         let Linearization { gram, constraint, .. } = &self.linearization;
         for (i, value) in self.saddle.matrices.values.iter_mut().enumerate() {
@@ -184,13 +191,36 @@ impl ConsistentInitialConditions {
             solution.iter_mut().zip(&rest).for_each(|(solution, change)| *solution += change);
         }
         right.copy_from_slice(&solution);
-        self.reduce_to_least_norm(&mut right[count..]);
+        self.redundancy.reduce_to_least_norm(&mut right[count..]);
     }
 
-    /// Solves [M Bᵀ; B 0] [x; λ] = `right` once, in place, with any multipliers.
-    pub(super) fn solve_once(&mut self, system: &System, right: &mut [f64]) {
-        self.redundancy.remove_misfit(&mut right[system.layout().coordinate_count()..]);
-        self.solve_scaled(system, right);
+    /// Solves as [`solve`](Self::solve) at the motion of `state`, by the multipliers alone where parts are rigid.
+    ///
+    /// # Errors
+    /// If constraints are redundant, or a coordinate has neither mass nor constraint.
+    pub(super) fn solve_at(
+        &mut self,
+        system: &System,
+        state: &State,
+        right: &mut [f64],
+    ) -> Result<(), InitialError> {
+        let (at, count) = (&state.kinematics, system.layout().coordinate_count());
+        if self.redundancy.follow(system, at) {
+            self.saddle.omit(self.redundancy.omitted());
+            (self.rigid, self.factored_at) = (None, None);
+        }
+        let rigid = RigidMatrix::renewed(&mut self.rigid, (system, at), self.redundancy.omitted());
+        if let Some(rigid) = rigid
+            && rigid.factor().is_some()
+        {
+            self.redundancy.remove_misfit(&mut right[count..]);
+            rigid.solve(right);
+            self.redundancy.reduce_to_least_norm(&mut right[count..]);
+            return Ok(());
+        }
+        self.factor(system, state, Inertias::All)?;
+        self.solve(system, right);
+        Ok(())
     }
 
     fn solve_scaled(&mut self, system: &System, right: &mut [f64]) {
@@ -200,16 +230,6 @@ impl ConsistentInitialConditions {
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
         self.saddle.solve(right);
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
-    }
-
-    pub(super) fn reduce_to_least_norm(&self, multipliers: &mut [f64]) {
-        self.redundancy.reduce_to_least_norm(multipliers);
-    }
-
-    /// Largest entry of a solution, accelerations as forces on the representative mass.
-    pub(super) fn largest_force(&self, solution: &[f64], count: usize) -> f64 {
-        let largest = |own: &[f64]| own.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        (self.scale * largest(&solution[..count])).max(largest(&solution[count..]))
     }
 
     /// M x of the last linearisation.
@@ -603,7 +623,7 @@ impl ConsistentInitialConditions {
         if delay == 0.0 {
             return Ok(now);
         }
-        let mut near = |size: f64| self.neighbouring_accelerations(system, &moved(state, size));
+        let mut near = |size: f64| self.acceleration_at(system, &moved(state, size));
         let sides = [near(delay)?, near(-delay)?];
         // Data such as a wind may begin with the motion.
         let is_finite = sides.each_ref().map(|side| side.iter().all(|value| value.is_finite()));

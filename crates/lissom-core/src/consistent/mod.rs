@@ -7,6 +7,7 @@ pub(crate) mod loops;
 pub mod mobility;
 mod open_trees;
 pub(crate) mod redundancy;
+pub(crate) mod rigid;
 pub(crate) mod singular_positions;
 
 pub use mobility::{Mobility, Redundant};

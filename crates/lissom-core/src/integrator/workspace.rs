@@ -150,7 +150,7 @@ impl Workspace {
         // Stiffness of elastic solids is symmetric; of other models it is so at equilibrium only, or not at all.
         let is_symmetric = !scheme.dynamic
             && solver.name == KINDS[0].name
-            && !system.has_feedback()
+            && !system.has_signal_feedback()
             && 2 * layout.node_rows.iter().filter(|rows| rows[3] == LOCKED).count() > layout.node_rows.len();
         let tangents = if is_symmetric {
             StageTangents::symmetric(solver, system.structure(), &scheme.coupling)

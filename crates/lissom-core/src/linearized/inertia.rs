@@ -37,6 +37,27 @@ fn assemble(system: &System, state: &State, blend: Blend<f64>, values: &mut [f64
     system.assemble_tangent(&at, Chart::Body, &mut Scratch::default(), &mut sum);
 }
 
+/// Whether a stiffness derives from an energy, so that its symmetric part, which then replaces it, determines the stability. `usual` is the
+/// size of its entries for lengths.
+fn is_conservative(
+    system: &System,
+    (representative, scale): (&Representative, f64),
+    values: &mut [f64],
+    usual: f64,
+) -> bool {
+    if has_symmetric(system, representative, values, usual) {
+        return true;
+    }
+    let (structure, count) = (system.structure(), system.layout().coordinate_count());
+    if !system.has_loads_of_motion() {
+        return false;
+    }
+    hold_unbalanced_forces(system.layout(), &structure.pattern, values);
+    let has_potential = has_potential(structure, (values, count), scale, &[]);
+    potential::symmetrise(&structure.pattern, values, count);
+    has_potential
+}
+
 /// Whether an equilibrium is certainly stable because its tangent hardly differs from the `factored` one, of this scaling.
 pub(crate) fn is_stable_like(
     system: &System,
@@ -54,7 +75,12 @@ pub(crate) fn is_stable_like(
     }
     let (mut change, blend) = (vec![0.0; pattern.entries()], scaled.blend(Weights::AT_REST));
     assemble(system, state, blend, &mut change);
-    if !has_symmetric(system, representative, &change, blend.place * representative.stiffness) {
+    if !is_conservative(
+        system,
+        (representative, scaled.scale()),
+        &mut change,
+        blend.place * representative.stiffness,
+    ) {
         return false;
     }
     factored.scale_as_factored(pattern, &mut change, scaled.scale());
@@ -105,7 +131,6 @@ pub(crate) fn verdict(
         return Verdict::Open;
     }
     let mut has_energy = true;
-    let (structure, count) = (system.structure(), system.layout().coordinate_count());
     let mut shifted = RealShift::new(system, representative);
     // Just below zero, so that unconstrained directions without stiffness are not counted as unstable.
     let shift = -NEUTRAL * small_square(representative);
@@ -113,12 +138,7 @@ pub(crate) fn verdict(
         assemble(system, state, blend, values);
         redundancy.omit_from(system, values);
         let usual = blend.place * representative.stiffness;
-        let mut is_symmetric = has_symmetric(system, representative, values, usual);
-        if !is_symmetric && system.has_loads_of_motion() {
-            hold_unbalanced_forces(system.layout(), &structure.pattern, values);
-            is_symmetric = has_potential(structure, (values, count), scaled.scale(), &[]);
-            potential::symmetrise(&structure.pattern, values, count);
-        }
+        let is_symmetric = is_conservative(system, (representative, scaled.scale()), values, usual);
         // What else is not symmetric is examined with the whole linear model.
         has_energy = is_symmetric || !system.has_loads_of_motion();
         if is_symmetric { Ok(()) } else { Err(FactorError::NotFinite { unknown: 0 }) }

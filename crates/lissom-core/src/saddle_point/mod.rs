@@ -45,6 +45,11 @@ pub(crate) trait Matrices {
     /// Brings rows and columns to one size.
     fn equilibrate(&mut self, structure: &Structure, equilibration: &mut Equilibration);
 
+    /// Returns to values that are not symmetric if their symmetric part is in use; whether it was. Default: it never is.
+    fn restore_differences(&mut self, _structure: &Structure) -> bool {
+        false
+    }
+
     /// Subtracts `by` from the diagonal entry of `unknown`.
     fn omit(&mut self, structure: &Structure, unknown: usize, by: f64);
 
@@ -170,6 +175,13 @@ impl<M: Matrices> SaddlePoint<M> {
             self.matrices.omit(structure, unknown, compliance * diagonal);
         }
         let mut result = self.matrices.factor();
+        let negative = result.as_ref().ok().and_then(|report| report.negative_pivots);
+        // Iterations by an indefinite symmetric part may leave the path of the equilibria.
+        if negative != Some(structure.pattern.size() - self.coordinate_count)
+            && self.matrices.restore_differences(structure)
+        {
+            result = self.matrices.factor();
+        }
         while self.omits
             && let Some(unknown) = self.depending(&result)
             && !self.omitted.contains(&unknown)

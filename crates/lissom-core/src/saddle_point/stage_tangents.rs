@@ -97,6 +97,9 @@ fn add_several<S: Scalar>(
     }
 }
 
+/// Difference of mirrored equilibrated values up to which their mean is factored: iterations converge with it.
+const LARGEST_ASYMMETRY: f64 = 0.2;
+
 /// The factored tangent of one decoupled system.
 pub(crate) enum FactoredSystem {
     Real(Factored<f64>),
@@ -108,6 +111,8 @@ pub(crate) struct StageTangents {
     pub(crate) systems: Vec<FactoredSystem>,
     /// The solver to continue with after the first matrix that is not symmetric, if the one in use is for symmetric matrices.
     general: Option<&'static SolverKind>,
+    /// Halves of the differences of mirrored values whose means are factored; empty if none are.
+    differences: Vec<f64>,
     threads: usize,
 }
 
@@ -119,7 +124,7 @@ impl StageTangents {
                 FactoredSystem::Complex(Factored::new((kind.complex)(structure), structure))
             }
         });
-        Self { systems: systems.collect(), general: None, threads: 1 }
+        Self { systems: systems.collect(), general: None, differences: Vec::new(), threads: 1 }
     }
 
     /// For matrices that are symmetric as a rule; `general` is the solver for others.
@@ -164,6 +169,22 @@ impl StageTangents {
                 .all(|(.., [below, above])| (values[below] - values[above]).abs() <= round_off::MATRIX_ENTRY),
             FactoredSystem::Complex(_) => false,
         })
+    }
+
+    /// Replaces mirrored values by their means, if they differ little, as by loads that follow the motion; whether they do.
+    fn symmetrise(&mut self, pattern: &Pattern) -> bool {
+        self.differences.clear();
+        let [FactoredSystem::Real(Factored { values, .. })] = &mut self.systems[..] else { return false };
+        let half = |[below, above]: [usize; 2]| 0.5 * (values[below] - values[above]);
+        self.differences.extend(pattern.mirrors().map(|(.., both)| half(both)));
+        if !self.differences.iter().all(|half| 2.0 * half.abs() <= LARGEST_ASYMMETRY) {
+            self.differences = Vec::new();
+            return false;
+        }
+        for ((.., [below, above]), half) in pattern.mirrors().zip(&self.differences) {
+            (values[below], values[above]) = (values[below] - half, values[below] - half);
+        }
+        true
     }
 
     /// Stored numbers of the factors.
@@ -325,9 +346,25 @@ impl Matrices for StageTangents {
                 }
             }
         }
-        if self.is_symmetric() && !self.has_symmetric_values(pattern) {
+        self.differences.clear();
+        if self.is_symmetric() && !self.has_symmetric_values(pattern) && !self.symmetrise(pattern) {
             self.generalise(structure);
         }
+    }
+
+    fn restore_differences(&mut self, structure: &Structure) -> bool {
+        let [FactoredSystem::Real(Factored { values, .. })] = &mut self.systems[..] else { return false };
+        if self.differences.is_empty() {
+            return false;
+        }
+        for ((.., [below, above]), half) in
+            structure.pattern.mirrors().zip(std::mem::take(&mut self.differences))
+        {
+            values[below] += half;
+            values[above] -= half;
+        }
+        self.generalise(structure);
+        true
     }
 
     fn omit(&mut self, structure: &Structure, unknown: usize, by: f64) {

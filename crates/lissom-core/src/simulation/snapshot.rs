@@ -24,7 +24,7 @@ use crate::system::{State, Touch};
 use crate::units::Unit;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 31;
+const VERSION: u32 = 32;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,8 +35,6 @@ pub struct Snapshot {
     states: [StateNumbers; 2],
     /// Motion at the start, and the correction of its velocities.
     origin: (StateNumbers, f64),
-    /// Positions of the factor that jumps keep.
-    near: Option<StateNumbers>,
     step_size: f64,
     integrator: IntegratorSnapshot,
     control: Vec<u8>,
@@ -214,13 +212,11 @@ impl Simulation {
     /// the last bit.
     pub fn snapshot(&self) -> Snapshot {
         let with = |at: &Kinematics| (&State { kinematics: at.clone(), ..self.state.clone() }).into();
-        let near = self.held_values.as_ref().and_then(|initial| initial.near.as_ref());
         Snapshot {
             version: VERSION,
             belongs_to: self.belonging(),
             states: [(&self.previous).into(), (&self.state).into()],
             origin: (with(&self.origin.kinematics), self.origin.velocity_correction),
-            near: near.map(with),
             step_size: self.settings.step_size,
             integrator: IntegratorSnapshot {
                 scaled: self.integrator.scaled,
@@ -266,10 +262,6 @@ impl Simulation {
         self.state = from.states[1].to_state(&units);
         self.origin.kinematics = from.origin.0.to_state(&units).kinematics;
         self.origin.velocity_correction = from.origin.1;
-        if let Some(initial) = &mut self.held_values {
-            let near = from.near.as_ref().map(|near| near.to_state(&units));
-            initial.keep_from(&self.system, near).map_err(|_| SnapshotError::Damaged {})?;
-        }
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);
         self.stops.history.clone_from(&from.history);
         self.settings.step_size = from.step_size;

@@ -138,14 +138,16 @@ impl WindBox {
         (f64::from(stored) - self.offset[component]) / self.slope[component]
     }
 
-    /// Component of the velocity [m/s] at y, z and time, linear in each, and its derivatives by them; NaN where there is no wind.
+    /// Component of the velocity [m/s] at y, z and time, and its derivatives by them; NaN where there is no wind. In each of the three it is a
+    /// cubic through the values with the slopes of their neighbours' chords, so that derivatives are continuous and steps need not end at
+    /// the points.
     pub(crate) fn evaluate(&self, component: usize, place: [f64; 3]) -> [f64; 4] {
-        let mut cells = [[0; 2]; 3];
-        let mut parts = [0.0; 3];
-        for k in 0..3 {
-            let (last, wraps) = (self.counts[k] - 1, k == 2 && self.is_periodic);
+        let mut axes = [Span::default(); 3];
+        for (k, axis) in axes.iter_mut().enumerate() {
+            let (count, wraps) = (self.counts[k], k == 2 && self.is_periodic);
+            let last = count - 1;
             #[expect(clippy::cast_precision_loss, reason = "the counts fit the file")]
-            let (end, period) = (last as f64, self.counts[k] as f64);
+            let (end, period) = (last as f64, count as f64);
             let steps = (place[k] - self.start[k]) / self.step[k];
             let steps = if wraps { steps.rem_euclid(period) } else { steps };
             if !((wraps && steps.is_finite()) || (0.0..=end).contains(&steps)) {
@@ -157,24 +159,70 @@ impl WindBox {
                 reason = "between 0 and the count"
             )]
             let cell = if wraps { (steps as usize).min(last) } else { (steps as usize).min(last - 1) };
-            cells[k] = [cell, if cell == last { 0 } else { cell + 1 }];
             #[expect(clippy::cast_precision_loss, reason = "the counts fit the file")]
             let start = cell as f64;
-            parts[k] = steps - start;
+            let Span { points, weights, slopes } = axis;
+            (*weights, *slopes) = cubic(steps - start);
+            if wraps {
+                *points = [(cell + last) % count, cell, (cell + 1) % count, (cell + 2) % count];
+            } else {
+                *points = [cell.saturating_sub(1), cell, cell + 1, (cell + 2).min(last)];
+                for of in [&mut *weights, &mut *slopes] {
+                    // Straight beyond the ends.
+                    if cell == 0 {
+                        *of = [0.0, of[1] + 2.0 * of[0], of[2] - of[0], of[3]];
+                    }
+                    if cell + 2 > last {
+                        *of = [of[0], of[1] - of[3], of[2] + 2.0 * of[3], 0.0];
+                    }
+                }
+            }
+            slopes.iter_mut().for_each(|slope| *slope /= self.step[k]);
         }
+        let [across, upwards, over] = &axes;
         let mut found = [0.0; 4];
-        for corner in 0..8_usize {
-            let side = [corner & 1, corner >> 1 & 1, corner >> 2];
-            let value = self.at(component, [0, 1, 2].map(|k| cells[k][side[k]]));
-            let weight = |k: usize| if side[k] == 1 { parts[k] } else { 1.0 - parts[k] };
-            let slope = |k: usize| (if side[k] == 1 { 1.0 } else { -1.0 }) / self.step[k];
-            found[0] += value * weight(0) * weight(1) * weight(2);
-            for k in 0..3 {
-                found[1 + k] += value * slope(k) * weight((k + 1) % 3) * weight((k + 2) % 3);
+        for k in 0..4 {
+            for j in 0..4 {
+                let (mut value, mut slope) = (0.0, 0.0);
+                for i in 0..4 {
+                    let own = self.at(component, [across.points[i], upwards.points[j], over.points[k]]);
+                    value += across.weights[i] * own;
+                    slope += across.slopes[i] * own;
+                }
+                found[0] += over.weights[k] * upwards.weights[j] * value;
+                found[1] += over.weights[k] * upwards.weights[j] * slope;
+                found[2] += over.weights[k] * upwards.slopes[j] * value;
+                found[3] += over.slopes[k] * upwards.weights[j] * value;
             }
         }
         found
     }
+}
+
+/// Points along one direction with their weights in a value and in its derivative.
+#[derive(Clone, Copy, Default)]
+struct Span {
+    points: [usize; 4],
+    weights: [f64; 4],
+    slopes: [f64; 4],
+}
+
+/// Weights of four equidistant values, and their derivatives, at the fraction `p` between the second and the third: the cubic through both
+/// with the slopes of the chords of their neighbours [Catmull and Rom 1974].
+fn cubic(p: f64) -> ([f64; 4], [f64; 4]) {
+    let weights = [
+        0.5 * p * (p * (2.0 - p) - 1.0),
+        1.0 + 0.5 * p * p * (3.0 * p - 5.0),
+        0.5 * p * (1.0 + p * (4.0 - 3.0 * p)),
+        0.5 * p * p * (p - 1.0),
+    ];
+    let slopes = [
+        0.5 * (p * (4.0 - 3.0 * p) - 1.0),
+        0.5 * p * (9.0 * p - 10.0),
+        0.5 * (1.0 + p * (8.0 - 9.0 * p)),
+        0.5 * p * (3.0 * p - 2.0),
+    ];
+    (weights, slopes)
 }
 
 #[cfg(test)]

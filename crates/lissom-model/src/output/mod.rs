@@ -28,7 +28,7 @@ pub use lissom_drawing::{
     animation, title_lines,
 };
 pub use log_plot::LogFigure;
-pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves, quantity_of};
+pub use plot::{Figure, FigureError, Graphic, drawn_outputs, figures, figures_of_curves, quantity_of};
 pub use record::{Record, RecordError};
 pub use spectrum::Spectrum;
 pub use summary::Summary;

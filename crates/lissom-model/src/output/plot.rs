@@ -152,24 +152,37 @@ pub fn quantity_of(column: &Column) -> String {
 pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
     let is_round_off = record.round_off();
     let points = |column: usize| record.drawn(column, is_round_off[column]);
-    figures_of(&record.columns, points, title)
+    figures_of(&record.columns, points, (title, usize::MAX))
 }
 
-/// The figures of curves: one per output. Round-off is drawn as zero.
-pub fn figures_of_curves(record: &CurveRecord, title: &str) -> Vec<Figure> {
+/// Names of the outputs that have figures, in their order.
+pub fn drawn_outputs(columns: &[Column]) -> Vec<&str> {
+    let mut known = std::collections::BTreeSet::new();
+    columns.iter().map(|column| column.plot.as_str()).filter(|plot| known.insert(*plot)).collect()
+}
+
+/// The figures of curves: one per output, of the first `count` outputs. Round-off is drawn as zero.
+pub fn figures_of_curves(record: &CurveRecord, title: &str, count: usize) -> Vec<Figure> {
     let is_round_off = record.round_off();
     let points = |column: usize| {
         let factor = if is_round_off[column] { 0.0 } else { 1.0 };
         record.points(column).into_iter().map(|(time, value)| (time, factor * value)).collect()
     };
-    figures_of(record.columns(), points, title)
+    figures_of(record.columns(), points, (title, count))
 }
 
-fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, title: &str) -> Vec<Figure> {
+fn figures_of(
+    columns: &[Column],
+    points: impl Fn(usize) -> Vec<(f64, f64)>,
+    (title, count): (&str, usize),
+) -> Vec<Figure> {
     let mut figures: Vec<(&str, Figure)> = Vec::new();
     for (which, column) in columns.iter().enumerate() {
         let plot = column.plot.as_str();
         let known = figures.iter().position(|(known, _)| *known == plot);
+        if known.is_none() && figures.len() == count {
+            continue;
+        }
         let index = known.unwrap_or_else(|| {
             let name = plot.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
             // Names that differ only in characters that file names cannot contain get a number.

@@ -167,8 +167,29 @@ fn springs_and_loads() {
             builder.add_of_kind(kind, attached, &parameters).expect("valid");
             let (system, state) = builder.build(0.0).expect("valid");
             check(kind.name, &system, &state, 0.4, &mut random);
+            check_inertia(kind.name, &system, &state);
         }
     }
+}
+
+/// Inertias are the same in every motion, unless an element has a mass matrix of its own: records take them once.
+fn check_inertia(name: &str, system: &System, state: &State) {
+    let mut moved = state.kinematics.clone();
+    let motion = Vector6::new(0.1, -0.2, 0.05, 0.3, 0.2, -0.1);
+    for node in &mut moved.nodes {
+        node.frame = node.frame * Motion::exponential(&motion);
+        (node.twist, node.acceleration) = (2.0 * motion, 3.0 * motion);
+    }
+    for coordinate in &mut moved.coordinates {
+        coordinate.value += 0.1;
+        (coordinate.rate, coordinate.acceleration) = (0.2, 0.3);
+    }
+    let mut own = Vec::new();
+    for element in system.elements_with(|own| own.inertia.filter(|_| !own.is_body_inertia)) {
+        element.mass(&moved, &mut own);
+    }
+    let [first, then] = [&state.kinematics, &moved].map(|at| system.linearization_at(at).mass);
+    assert!(!own.is_empty() || first == then, "{name}: its inertia depends on the motion");
 }
 
 #[test]

@@ -443,13 +443,13 @@ impl ResultFolder {
         Ok(written)
     }
 
-    /// Draws every output of `record`, as SVG and as PNG. A failure of one plot does not prevent the others.
+    /// Draws the first `count` outputs of `record`, as SVG and as PNG. A failure of one plot does not prevent the others.
     ///
     /// # Errors
     /// The error of the first plot that could not be drawn or written.
-    pub fn write_plots(&self, record: &CurveRecord, title: &str) -> Result<(), FolderError> {
+    pub fn write_plots(&self, record: &CurveRecord, title: &str, count: usize) -> Result<(), FolderError> {
         let mut first = Ok(());
-        for figure in figures_of_curves(record, title) {
+        for figure in figures_of_curves(record, title, count) {
             let drawn = figure.draw().map_err(FolderError::from);
             first = first.and(drawn.and_then(|drawn| Self::write_graphic(&self.path, &drawn)).map(drop));
         }

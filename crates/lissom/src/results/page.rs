@@ -30,7 +30,7 @@ impl ResultFolder {
         let (_, record, title) = Self::open(path)?;
         let Some((_, bytes)) = drawn(path)? else {
             let holds = "a run without recorded motion";
-            let remedy = "run the model without `--no-plots`";
+            let remedy = "run the model again";
             return Err(FolderError::NoMotion { path: path.display().to_string(), holds, remedy });
         };
         let scene = read_scene(&path.join(SCENE))?;
@@ -82,7 +82,7 @@ impl ResultFolder {
             results = results.with_notice(notice);
         }
         let Some((scene, motion)) = drawn(path)? else {
-            let text = "No motion was recorded: run the model without `--no-plots` to see an animation.";
+            let text = "No motion was recorded: run the model again to see an animation.";
             return Ok(results.with_notice(Notice::warning(text)));
         };
         let last = Motion::last_time(&motion).map_err(|error| foreign(&path.join(MOTION), error))?;

@@ -12,6 +12,7 @@ use lissom_solver::{Pattern, SolverKind};
 
 use super::stiff_parts::StiffParts;
 use crate::consistent::redundancy::Redundancy;
+use crate::consistent::rigid::{self, RigidMatrix, WELL_CONDITIONED};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, Layout, MotionChange};
@@ -19,11 +20,9 @@ use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Blend, Scratch, State, Sum, System, TangentAssembler};
 
-/// Smallest pivot, relative to its terms, with which solutions are accurate to round-off.
-const WELL_CONDITIONED: f64 = 1e-6;
-
-/// Relative change of velocities by the filter below which it is omitted: it is small compared with the errors of any step.
-const NEGLIGIBLE_FILTER: f64 = 1e-10;
+/// Relative change of velocities by the filter below which it is omitted: steps resolve such vibrations, so that their forces are more exact
+/// without it.
+const NEGLIGIBLE_FILTER: f64 = 1e-6;
 
 /// Consecutive entries of a column in consecutive rows.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +37,10 @@ pub(super) struct Run {
 pub(super) struct RecoveryMatrix {
     saddle: SaddlePoint<Matrix<f64>>,
     redundancy: Redundancy,
+    /// The matrix of rigid parts without stiffness, if the system consists of them; none before it is needed. It was factored last if
+    /// `is_rigid`.
+    rigid: Option<Option<Box<RigidMatrix>>>,
+    is_rigid: bool,
     /// Elements that may be stiff, if there are any.
     stiff: Option<StiffParts>,
     /// Scratch memory of the assembly.
@@ -82,7 +85,9 @@ impl RecoveryMatrix {
         Self {
             saddle,
             redundancy,
-            stiff: system.has_stiff_elements().then(|| StiffParts::new(system)),
+            rigid: (!rigid::has_constant_inertias(system, &state.kinematics)).then_some(None),
+            is_rigid: false,
+            stiff: system.has_stiff_elements().then(|| StiffParts::new((system, &state.kinematics))),
             scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             augmentation,
@@ -112,13 +117,40 @@ impl RecoveryMatrix {
         system.begin_step(at, &mut self.starts);
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
+            self.rigid.take_if(|rigid| rigid.is_some());
         }
-        self.assemble((system, at), time, solutions);
+        let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
+        if let Some(stiff) = &mut self.stiff {
+            stiff.linearize((system, at), self.scratch.get_or_insert_default());
+        }
+        self.is_rigid = self.factor_rigid((system, at), (time, limit)).is_some();
+        if self.is_rigid {
+            return Some(());
+        }
+        self.assemble((system, at), (time, limit));
         self.saddle.factor(system.structure(), self.scale).ok()?;
         Some(())
     }
 
-    fn assemble(&mut self, (system, at): (&System, &Kinematics), time: f64, solutions: usize) {
+    /// Factors the matrix of rigid parts; none if there are others, or stiffness is not negligible.
+    fn factor_rigid(&mut self, (system, at): (&System, &Kinematics), limits: (f64, f64)) -> Option<()> {
+        let Self { rigid, redundancy, stiff, between_motions: runs, .. } = self;
+        // Stiffness between nodes is known before gradients are.
+        let is_stiff = |own: &mut StiffParts| own.has_effect_with(runs, limits, std::iter::empty());
+        if matches!(rigid, Some(None)) || stiff.as_mut().is_some_and(is_stiff) {
+            return None;
+        }
+        let rigid = RigidMatrix::renewed(rigid, (system, at), redundancy.omitted())?;
+        if let Some(stiff) = stiff {
+            let coordinates = rigid.inertias_of_coordinates();
+            if coordinates.len() > 0 && stiff.has_effect_with(runs, limits, coordinates) {
+                return None;
+            }
+        }
+        rigid.factor()
+    }
+
+    fn assemble(&mut self, (system, at): (&System, &Kinematics), (time, limit): (f64, f64)) {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let mut values = std::mem::take(&mut self.saddle.matrices.values);
         let mut scratch = self.scratch.take().unwrap_or_default();
@@ -126,8 +158,6 @@ impl RecoveryMatrix {
         let scale = self.scale;
         system.linearize_elements(false, at, &mut scratch, &mut inertial(scale, &mut values));
         if let Some(stiff) = &mut self.stiff {
-            stiff.linearize((system, at), &mut scratch);
-            let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
             stiff.add(&self.between_motions, (time, limit), &mut values);
         }
         let point = self.point(at, &self.zero);
@@ -151,6 +181,10 @@ impl RecoveryMatrix {
     pub(super) fn solve(&mut self, right: &mut [f64]) {
         let count = right.len() - self.zero.len();
         self.redundancy.remove_misfit(&mut right[count..]);
+        if let Some(Some(rigid)) = self.rigid.as_mut().filter(|_| self.is_rigid) {
+            rigid.solve(right);
+            return;
+        }
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
         self.saddle.scale(right);
         let (motions, constraints) = right.split_at_mut(count);
@@ -184,8 +218,9 @@ impl RecoveryMatrix {
     /// of motion, and no pivot has lost digits.
     pub(super) fn is_exact(&self) -> bool {
         let report = self.saddle.report();
-        !self.stiff.as_ref().is_some_and(StiffParts::has_damping)
-            && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
+        self.is_rigid
+            || !self.stiff.as_ref().is_some_and(StiffParts::has_damping)
+                && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
     }
 
     /// out += K x over motions, x by row; equations of rates have no stiffness.

@@ -9,6 +9,9 @@ pub(super) struct StiffParts {
     pub(super) derivatives: Linearization,
     /// Entries of the diagonal, by row.
     diagonal: Vec<usize>,
+    /// Inertias by row: constant ones, and those of coordinates at the last positions, infinite before; inertias in use.
+    own_inertias: Vec<f64>,
+    inertias: Vec<f64>,
     /// Whether τ² K is not negligible at these positions.
     pub(super) has_effect: bool,
     /// The run of entries at which a column that is not negligible was found last.
@@ -16,10 +19,15 @@ pub(super) struct StiffParts {
 }
 
 impl StiffParts {
-    pub(super) fn new(system: &System) -> Self {
+    pub(super) fn new((system, at): (&System, &Kinematics)) -> Self {
         let pattern = &system.structure().pattern;
         let rows = 0..system.layout().coordinate_count();
+        let mass = system.linearization_at(at).mass;
+        let inertia = |row| pattern.position(row, row).map_or(0.0, |position| mass[position]);
+        let own_inertias = rows.clone().map(inertia).map(|own| if own > 0.0 { own } else { f64::INFINITY });
         Self {
+            own_inertias: own_inertias.collect(),
+            inertias: Vec::new(),
             derivatives: system.empty_linearization(),
             diagonal: rows.filter_map(|row| pattern.position(row, row)).collect(),
             has_effect: false,
@@ -28,6 +36,7 @@ impl StiffParts {
     }
 
     pub(super) fn linearize(&mut self, (system, at): (&System, &Kinematics), scratch: &mut Scratch) {
+        self.has_effect = false;
         let stiff = &mut self.derivatives;
         // The remaining derivatives are not used.
         for values in [&mut stiff.mass, &mut stiff.damping, &mut stiff.stiffness] {
@@ -40,8 +49,11 @@ impl StiffParts {
     /// elements.
     pub(super) fn add(&mut self, between_motions: &[Run], (time, limit): (f64, f64), values: &mut [f64]) {
         values.iter_mut().zip(&self.derivatives.mass).for_each(|(value, mass)| *value += mass);
-        let found = self.exceeding(between_motions, (time, limit), values);
-        (self.has_effect, self.found_at) = (found.is_some(), found.unwrap_or(0));
+        if !self.has_effect {
+            self.inertias.clear();
+            self.inertias.extend(self.diagonal.iter().map(|&position| values[position]));
+            self.find_effect(between_motions, (time, limit));
+        }
         let stiff = &self.derivatives;
         for run in between_motions.iter().filter(|_| self.has_effect) {
             let own = run.position..run.position + run.length;
@@ -52,21 +64,39 @@ impl StiffParts {
         }
     }
 
+    /// Whether τ² K has an effect where coordinates without inertia have the inertias of these rows, or those known last.
+    pub(super) fn has_effect_with(
+        &mut self,
+        between_motions: &[Run],
+        limit: (f64, f64),
+        coordinates: impl Iterator<Item = (usize, f64)>,
+    ) -> bool {
+        coordinates.for_each(|(row, inertia)| self.own_inertias[row] = inertia);
+        self.inertias.clone_from(&self.own_inertias);
+        self.find_effect(between_motions, limit)
+    }
+
+    fn find_effect(&mut self, between_motions: &[Run], limit: (f64, f64)) -> bool {
+        let found = self.exceeding(between_motions, limit);
+        (self.has_effect, self.found_at) = (found.is_some(), found.unwrap_or(0));
+        self.has_effect
+    }
+
     /// Whether the matrix contains damping.
     pub(super) fn has_damping(&self) -> bool {
         self.has_effect && self.derivatives.damping.iter().any(|value| *value != 0.0)
     }
 
-    /// First run of a column because of which τ² ω² may exceed `limit`: by columns j of τ D + τ² K relative to the inertias `mass`,
+    /// First run of a column because of which τ² ω² may exceed `limit`: by columns j of τ D + τ² K relative to the inertias M,
     ///
     /// ```text
     /// τ² ω² ≤ max Σ_i |τ D + τ² K|_ij / √(M_ii M_jj)
     /// ```
     ///
     /// The search begins with the column that was found last.
-    fn exceeding(&self, runs: &[Run], (time, limit): (f64, f64), mass: &[f64]) -> Option<usize> {
+    fn exceeding(&self, runs: &[Run], (time, limit): (f64, f64)) -> Option<usize> {
         let stiff = &self.derivatives;
-        let inertia = |row: usize| mass[self.diagonal[row]];
+        let inertia = |row: usize| self.inertias[row];
         let of_run = |run: &Run| {
             let terms = (0..run.length).map(|k| {
                 let entry = run.position + k;

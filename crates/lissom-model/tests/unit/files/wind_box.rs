@@ -40,23 +40,54 @@ fn the_points_have_the_stored_values() {
 }
 
 #[test]
-fn values_between_are_linear_in_each_direction_with_exact_derivatives() {
+fn values_between_have_exact_derivatives() {
     for format in [7, 8] {
         let wind = WindBox::of_file(file(format, number)).unwrap();
         let last = if format == 8 { 1.8 } else { 1.4 };
         for place in [[-3.0, 22.0, 0.2], [1.0, 29.0, last], [4.9, 20.1, 0.9]] {
             let [_, slopes @ ..] = wind.evaluate(1, place);
             for k in 0..3 {
-                let [after, before] = [0.01, -0.01].map(|step| {
+                let [after, before] = [1e-4, -1e-4].map(|step| {
                     let mut moved = place;
                     moved[k] += step;
                     wind.evaluate(1, moved)[0]
                 });
-                let found = (after - before) / 0.02;
-                assert!((found - slopes[k]).abs() < 1e-9, "{format} {place:?} {k}: {found} {}", slopes[k]);
+                let found = (after - before) / 2e-4;
+                assert!((found - slopes[k]).abs() < 1e-5, "{format} {place:?} {k}: {found} {}", slopes[k]);
                 assert!(slopes[k].abs() > 1e-3);
             }
         }
+    }
+}
+
+#[test]
+fn derivatives_are_continuous_at_the_points() {
+    for format in [7, 8] {
+        let wind = WindBox::of_file(file(format, number)).unwrap();
+        for (place, axis) in [([0.0, 24.0, 0.7], 0), ([1.0, 24.0, 0.5], 2), ([1.0, 24.0, 1.0], 2)] {
+            let [before, after] = [-1e-9, 1e-9].map(|step| {
+                let mut moved = place;
+                moved[axis] += step;
+                wind.evaluate(0, moved)
+            });
+            let is_close = before.iter().zip(after).all(|(before, after)| (before - after).abs() < 1e-6);
+            assert!(is_close, "{format} {place:?}: {before:?} {after:?}");
+            assert!(after[1 + axis].abs() > 1e-3);
+        }
+    }
+}
+
+#[test]
+fn wind_that_is_linear_over_the_points_is_linear_up_to_the_ends() {
+    let linear = |_: usize, y: usize, z: usize, instant: usize| {
+        i16::try_from(500 + 100 * y + 30 * z + 200 * instant).unwrap()
+    };
+    let wind = WindBox::of_file(file(7, linear)).unwrap();
+    for place in [[-4.8, 20.5, 0.1], [0.3, 25.0, 0.8], [4.8, 29.5, 1.4], [5.0, 30.0, 1.5]] {
+        let found = wind.evaluate(1, place);
+        let expected = 10.0 + 0.4 * (place[0] + 5.0) + 0.06 * (place[1] - 20.0) + 8.0 * place[2];
+        let is_right = [expected, 0.4, 0.06, 8.0].iter().zip(found).all(|(a, b)| (a - b).abs() < 1e-9);
+        assert!(is_right, "{place:?}: {found:?} {expected}");
     }
 }
 
@@ -69,8 +100,10 @@ fn a_periodic_file_repeats_and_another_one_ends() {
         assert!((here - later).abs() < 1e-12 && (here - earlier).abs() < 1e-12, "{time}");
     }
     // Half way between the last plane and the first.
-    let [between, last, first] = [1.75, 1.5, 0.0].map(|time| wind.evaluate(0, [0.0, 20.0, time])[0]);
-    assert!((between - 0.5 * (last + first)).abs() < 1e-12 && last - first > 1.0, "{between} {last} {first}");
+    let [between, before, last, first, second] =
+        [1.75, 1.0, 1.5, 0.0, 0.5].map(|time| wind.evaluate(0, [0.0, 20.0, time])[0]);
+    let expected = (9.0 * (last + first) - (before + second)) / 16.0;
+    assert!((between - expected).abs() < 1e-12 && last - first > 1.0, "{between} {last} {first}");
     let wind = WindBox::of_file(file(7, number)).unwrap();
     assert!(wind.evaluate(0, [5.0, 30.0, 1.5])[0].is_finite());
     assert!(wind.evaluate(0, [-5.0, 20.0, 0.0])[0].is_finite());

@@ -145,7 +145,9 @@ fn positions_of_contacts_have_a_panel_and_round_off_is_zero() {
     assert!(own.panels[0].curves[0].1.iter().any(|point| point.1 > 0.0));
     // A run draws curves that it has kept row by row.
     let kept = CurveRecord::from(&record(5, values, &columns));
-    assert!(figures_of_curves(&kept, "")[0].panels[1].curves[0].1.iter().all(|point| point.1 == 0.0));
+    assert!(
+        figures_of_curves(&kept, "", usize::MAX)[0].panels[1].curves[0].1.iter().all(|point| point.1 == 0.0)
+    );
 }
 
 #[test]
