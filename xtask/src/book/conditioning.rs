@@ -3,12 +3,13 @@
 use std::thread;
 
 use lissom::Model;
+pub(super) use lissom::analyses::study::conditioning::SCALINGS;
 use lissom::core::saddle_point::TangentValues;
 use lissom::core::scaling::{ScaleBy, ScalingChoice};
 use lissom::core::simulation::Simulation;
+use lissom::core::system::System;
 use lissom::start::{Lowered, lower};
 use lissom_model::output::LogFigure;
-use lissom_solver::{LinearSolver, Scalar, SolverKind, Structure, condition_estimate, kind};
 
 use super::fragment::{Fragment, overrides};
 use super::numbers::two;
@@ -56,35 +57,21 @@ fn measure(model: &Model, example: &'static str, set: &[(&str, &str)]) -> Result
     let choice = simulation.settings().scaling;
     let choices = SCALINGS.map(|(_, _, by, equilibrated)| ScalingChoice { by, equilibrated, ..choice });
     let tangents = simulation.converged_tangents(&choices).unwrap_or_default();
-    let structure = simulation.system().structure();
-    let conditions: Vec<f64> = tangents.iter().map(|tangent| condition(structure, tangent)).collect();
+    let conditions: Vec<f64> =
+        tangents.iter().map(|tangent| condition(simulation.system(), tangent)).collect();
     conditions.try_into().map_err(|_| BookError::run(example)("the run has no steps"))
 }
 
 /// Condition number in the 2-norm, or its estimate in the 1-norm if the matrix is large.
-fn condition(structure: &Structure, tangent: &TangentValues) -> f64 {
+        large => large.condition_estimate(system),
+fn condition(system: &System, tangent: &TangentValues) -> f64 {
+    let pattern = &system.structure().pattern;
     match tangent {
-        TangentValues::Real(values) => condition_of(structure, values, |kind| (kind.real)(structure)),
-        TangentValues::Complex(values) => condition_of(structure, values, |kind| (kind.complex)(structure)),
-    }
-}
-
-fn condition_of<S: Scalar>(
-    structure: &Structure,
-    values: &[S],
-    solver: impl Fn(&SolverKind) -> Box<dyn LinearSolver<S>>,
-) -> f64 {
-    let real_size = if S::COMPLEX { 2 } else { 1 } * structure.pattern.size();
-    if real_size <= MAX_MEASURED {
-        return condition_number(&structure.pattern, values);
-    }
-    for kind in ["sparse", "pivoting"].into_iter().filter_map(kind) {
-        let mut solver = solver(kind);
-        if solver.factor(values).is_ok() {
-            return condition_estimate(&mut *solver, &structure.pattern, values).max(1.0);
+        TangentValues::Real(values) if pattern.size() <= MAX_MEASURED => condition_number(pattern, values),
+        TangentValues::Complex(values) if 2 * pattern.size() <= MAX_MEASURED => {
+            condition_number(pattern, values)
         }
     }
-    f64::INFINITY
 }
 
 /// Condition numbers at the end of a run for each of these sets of values.

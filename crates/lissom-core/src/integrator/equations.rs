@@ -16,7 +16,7 @@ use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity, Stressed, Subject}
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
 use crate::saddle_point::{REDUNDANT, TangentValues};
-use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
+use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion, state_rows};
 use crate::schemes::{MAX_STAGES, Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
@@ -479,7 +479,8 @@ impl StepEquations<'_> {
         };
         if report.worst_cancellation < REDUNDANT
             && is_of_solid()
-            && tangent.matrices.condition_estimate(&self.system.structure().pattern) > SINGULAR
+            && tangent.matrices.condition_estimate(&self.system.structure().pattern, &state_rows(layout))
+                > SINGULAR
         {
             return Err(FactorError::ZeroPivot { unknown, pivot, largest: report.largest_diagonal });
         }
