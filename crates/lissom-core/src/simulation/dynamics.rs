@@ -70,7 +70,11 @@ impl Simulation {
             let at_start = system.linearization_at(&state.kinematics);
             Representative::of(&system, &state.kinematics, &at_start)
         });
-        let redundancy = Redundancy::new(&system, &state.kinematics, representative.length);
+        let redundancy = if settings.solver.is_strict {
+            Redundancy::unexamined(representative.length)
+        } else {
+            Redundancy::new(&system, &state.kinematics, representative.length)
+        };
         warnings.extend(out_of_line(&system, &state, &redundancy)?);
         let mut velocity_correction = 0.0;
         let mut held_values = None;
