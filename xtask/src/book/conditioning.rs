@@ -5,7 +5,7 @@ use std::thread;
 use lissom::Model;
 pub(super) use lissom::analyses::study::conditioning::SCALINGS;
 use lissom::core::saddle_point::TangentValues;
-use lissom::core::scaling::{ScaleBy, ScalingChoice};
+use lissom::core::scaling::ScalingChoice;
 use lissom::core::simulation::Simulation;
 use lissom::core::system::System;
 use lissom::start::{Lowered, lower};
@@ -21,13 +21,6 @@ use super::{BookError, Studio};
 pub(super) const MASS: &str = "point_masses.bob.mass";
 /// Step sizes for the tip crank [s].
 const CRANK_STEPS: [&str; 6] = ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7"];
-/// Scalings in the order of the columns: name, label of the curve, s, whether it is equilibrated.
-pub(super) const SCALINGS: [(&str, &str, ScaleBy, bool); 4] = [
-    ("none", "no scaling", ScaleBy::None, false),
-    ("unit", "s = 1", ScaleBy::Unit, false),
-    ("physical", "s physical", ScaleBy::Physical, false),
-    ("equilibrated", "equilibrated", ScaleBy::Physical, true),
-];
 /// Maximum number of real unknowns for which singular values are computed; a complex unknown counts twice.
 const MAX_MEASURED: usize = 120;
 
@@ -63,7 +56,6 @@ fn measure(model: &Model, example: &'static str, set: &[(&str, &str)]) -> Result
 }
 
 /// Condition number in the 2-norm, or its estimate in the 1-norm if the matrix is large.
-        large => large.condition_estimate(system),
 fn condition(system: &System, tangent: &TangentValues) -> f64 {
     let pattern = &system.structure().pattern;
     match tangent {
@@ -71,6 +63,7 @@ fn condition(system: &System, tangent: &TangentValues) -> f64 {
         TangentValues::Complex(values) if 2 * pattern.size() <= MAX_MEASURED => {
             condition_number(pattern, values)
         }
+        large => large.condition_estimate(system),
     }
 }
 
