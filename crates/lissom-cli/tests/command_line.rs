@@ -261,6 +261,71 @@ fn a_vanishing_pivot_is_reported_and_a_pivoting_solver_goes_on() {
 }
 
 #[test]
+fn the_strict_solver_shows_where_elimination_without_help_fails() {
+    let folder = Folder::new("strict");
+    let model = example("tip-crank");
+    let run = |solver: &str, more: &[&str]| {
+        let solver = format!("analysis.solver={solver}");
+        let mut args = vec!["run", &model, "--no-plots", "--set", "analysis.end=2e-3", "--set", &solver];
+        args.extend(more.iter().flat_map(|set| ["--set", *set]));
+        lissom(&args, folder.path())
+    };
+    // Without the augmented term: the first tangent, its multiplier, the reason and the remedy.
+    let plain = run("strict", &["analysis.augmented=false"]);
+    assert_eq!(plain.code, 3, "{}", plain.output);
+    for words in [
+        "t = 0.0005 s",
+        "multiplier of joint `G` (rotation 3)",
+        "does not depend on others",
+        "augmented = true",
+    ] {
+        assert!(plain.errors.contains(words), "{}", plain.errors);
+    }
+    let out = folder.path().join("out/tip-crank");
+    assert_eq!(summary(&out)["steps"], 0);
+    // With it, but unscaled: factors and converges with a condition number of 2e19, until its weight is round-off of a pivot.
+    let unscaled = run("strict", &["analysis.scaling=none"]);
+    assert_eq!(unscaled.code, 0, "{}", unscaled.errors);
+    assert!(summary(&out)["smallest_relative_pivot"].as_f64().unwrap() < 1e-18, "{}", unscaled.output);
+    let light = ["analysis.scaling=none", "analysis.penalty=1e-9"];
+    let lost = run("strict", &light);
+    assert_eq!(lost.code, 3, "{}", lost.output);
+    for words in
+        ["multiplier of joint `G` (rotation 3)", "which is their round-off", "scaling = \"physical\""]
+    {
+        assert!(lost.errors.contains(words), "{}", lost.errors);
+    }
+    // Scaled and augmented it needs no help; nor does the same weight.
+    for penalty in ["1e-3", "1e-9"] {
+        let scaled = run("strict", &[&format!("analysis.penalty={penalty}")]);
+        assert_eq!(scaled.code, 0, "{}", scaled.errors);
+    }
+    // An ordinary run exchanges rows, and does not take a pivot that round-off has taken for a redundant constraint.
+    let repaired = run("sparse", &light);
+    assert_eq!(repaired.code, 0, "{}", repaired.errors);
+    assert!(repaired.output.contains("continued with the pivoting solver"), "{}", repaired.output);
+    assert!(!repaired.output.contains("redundant"), "{}", repaired.output);
+}
+
+#[test]
+fn the_strict_solver_stops_at_redundant_constraints() {
+    let folder = Folder::new("strict-redundant");
+    let text = std::fs::read_to_string(example("top")).unwrap();
+    let twice = "\n[joints.twin]\nkind = \"spherical\"\nbase = \"ground\"\ntip = \"top\"\nat = [0, 0, 0]\n";
+    folder.write("twice.toml", &(text + twice));
+    let run = |solver: &str| {
+        lissom(
+            &["run", "twice.toml", "--no-plots", "--set", &format!("analysis.solver={solver}")],
+            folder.path(),
+        )
+    };
+    assert_eq!(run("sparse").code, 0);
+    let strict = run("strict");
+    assert_eq!(strict.code, 3, "{}", strict.output);
+    assert!(strict.errors.contains("redundant with those of other joints"), "{}", strict.errors);
+}
+
+#[test]
 fn load_steps_lead_to_the_bent_cantilever() {
     let folder = Folder::new("statics");
     folder.write("cantilever.toml", CANTILEVER);

@@ -77,6 +77,11 @@ fn unit(quantity: Quantity, radian: f64) -> f64 {
     }
 }
 
+/// Rows of first-order states, whose units are the user's: neither pivots nor round-off depend on them, and condition numbers must not.
+pub(crate) fn state_rows(layout: &Layout) -> Vec<usize> {
+    layout.states().map(|(row, ..)| row).collect()
+}
+
 /// Size of a model that does not depend on its distance from the origin, where the ground's node is: that counts at the mean location of
 /// its joints, if there are any. 1 for a single point mass.
 pub(crate) fn extent(system: &System, at: &Kinematics) -> f64 {

@@ -9,8 +9,12 @@ use crate::solver::LinearSolver;
 
 /// More rounds hardly ever change the estimate (Higham 1988, section 3).
 const ROUNDS: usize = 5;
+/// Sweeps that balance rows and columns: the first one finds the order of magnitude.
+const SWEEPS: usize = 10;
 
-/// Estimates `‖A‖₁ ‖A⁻¹‖₁` for the matrix with these values, which the solver factored last.
+/// Estimates `‖A‖₁ ‖A⁻¹‖₁` for `A = D⁻¹ Â D`, where Â has these values and was factored last by the solver. D has the units of the
+/// unknowns on its diagonal: 1, except for the `free` ones, whose units are arbitrary. Theirs make row and column equally large, which
+/// is the best choice except for a factor, whatever the units of Â.
 ///
 /// # Panics
 /// If the number of values is not that of the entries in the pattern.
@@ -18,17 +22,68 @@ pub fn condition_estimate<S: Scalar>(
     solver: &mut dyn LinearSolver<S>,
     pattern: &Pattern,
     values: &[S],
+    free: &[usize],
 ) -> f64 {
     assert_eq!(values.len(), pattern.entries(), "one value for each entry of the pattern");
-    let norm = pattern
-        .column_starts()
-        .windows(2)
-        .map(|range| one_norm(&values[range[0]..range[1]]))
+    let units = &balanced_units(pattern, values, free)[..];
+    let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
+    let norm = (0..pattern.size())
+        .map(|column| {
+            let entries = starts[column]..starts[column + 1];
+            entries.map(|k| modulus(values[k]) * units[column] / units[rows[k]]).sum()
+        })
         .fold(0.0, f64::max);
-    norm * inverse_norm(solver, pattern.size())
+    norm * inverse_norm(&mut InUnits { solver, units })
 }
 
-fn inverse_norm<S: Scalar>(solver: &mut dyn LinearSolver<S>, size: usize) -> f64 {
+/// Units in which the rows and columns of the `free` unknowns have one norm without their diagonal [Osborne 1960]; 1 for all others.
+fn balanced_units<S: Scalar>(pattern: &Pattern, values: &[S], free: &[usize]) -> Vec<f64> {
+    let (starts, rows, size) = (pattern.column_starts(), pattern.row_indices(), pattern.size());
+    let mut units = vec![1.0; size];
+    let (mut columns_sum, mut rows_sum) = (vec![0.0; size], vec![0.0; size]);
+    for _ in 0..if free.is_empty() { 0 } else { SWEEPS } {
+        columns_sum.fill(0.0);
+        rows_sum.fill(0.0);
+        for column in 0..size {
+            for k in (starts[column]..starts[column + 1]).filter(|&k| rows[k] != column) {
+                let value = modulus(values[k]) * units[column] / units[rows[k]];
+                columns_sum[column] += value;
+                rows_sum[rows[k]] += value;
+            }
+        }
+        for &unknown in free {
+            let factor = (rows_sum[unknown] / columns_sum[unknown]).sqrt();
+            // An unknown that no other equation contains has any unit.
+            if factor.is_normal() {
+                units[unknown] *= factor;
+            }
+        }
+    }
+    units
+}
+
+/// A solver for D⁻¹ Â D.
+struct InUnits<'a, S> {
+    solver: &'a mut dyn LinearSolver<S>,
+    units: &'a [f64],
+}
+
+impl<S: Scalar> InUnits<'_, S> {
+    fn solve(&mut self, vector: &mut [S]) {
+        vector.iter_mut().zip(self.units).for_each(|(value, &unit)| *value *= S::from_real(unit));
+        self.solver.solve(vector);
+        vector.iter_mut().zip(self.units).for_each(|(value, &unit)| *value *= S::from_real(unit.recip()));
+    }
+
+    fn solve_transposed(&mut self, vector: &mut [S]) {
+        vector.iter_mut().zip(self.units).for_each(|(value, &unit)| *value *= S::from_real(unit.recip()));
+        self.solver.solve_transposed(vector);
+        vector.iter_mut().zip(self.units).for_each(|(value, &unit)| *value *= S::from_real(unit));
+    }
+}
+
+fn inverse_norm<S: Scalar>(solver: &mut InUnits<'_, S>) -> f64 {
+    let size = solver.units.len();
     if size == 0 {
         return 0.0;
     }
@@ -64,7 +119,7 @@ fn inverse_norm<S: Scalar>(solver: &mut dyn LinearSolver<S>, size: usize) -> f64
 }
 
 /// Higham's safeguard against cancellation: growing numbers with alternating signs.
-fn alternating_probe<S: Scalar>(solver: &mut dyn LinearSolver<S>, vector: &mut [S]) -> f64 {
+fn alternating_probe<S: Scalar>(solver: &mut InUnits<'_, S>, vector: &mut [S]) -> f64 {
     let size = vector.len();
     for (index, value) in vector.iter_mut().enumerate() {
         let size_of_it = 1.0 + index as f64 / (size.max(2) - 1) as f64;

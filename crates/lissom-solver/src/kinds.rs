@@ -6,12 +6,17 @@ use crate::solver::LinearSolver;
 use crate::structure::Structure;
 use crate::{multifrontal, pivoting};
 
+/// Word of the solver that shows what the method does without help.
+const STRICT: &str = "strict";
+
 /// A kind of solver: one line in [`KINDS`].
 pub struct SolverKind {
     /// Name, as written in input files.
     pub name: &'static str,
     /// One line for manuals.
     pub summary: &'static str,
+    /// Whether nothing is to help where its elimination stops or loses digits: no exchange of rows, no omitted equation, no shorter step.
+    pub is_strict: bool,
     /// Symbolic analysis for real matrices.
     pub real: fn(&Structure) -> Box<dyn LinearSolver<f64>>,
     /// Symbolic analysis for complex matrices.
@@ -24,14 +29,23 @@ pub static KINDS: &[SolverKind] = &[
     SolverKind {
         name: multifrontal::NAME,
         summary: "multifrontal without pivoting: the default, fast for chains, trees and grids alike",
+        is_strict: false,
         real: |structure| Box::new(multifrontal::Multifrontal::<f64>::new(structure)),
         complex: |structure| Box::new(multifrontal::Multifrontal::<Complex64>::new(structure)),
     },
     SolverKind {
         name: pivoting::NAME,
         summary: "sparse LU with partial pivoting: fallback, and for comparison",
+        is_strict: false,
         real: |structure| Box::new(pivoting::Pivoting::<f64>::new(structure)),
         complex: |structure| Box::new(pivoting::Pivoting::<Complex64>::new(structure)),
+    },
+    SolverKind {
+        name: STRICT,
+        summary: "`sparse`, and a step fails where its elimination stops or loses the digits of the solution",
+        is_strict: true,
+        real: |structure| Box::new(multifrontal::Multifrontal::<f64>::new(structure)),
+        complex: |structure| Box::new(multifrontal::Multifrontal::<Complex64>::new(structure)),
     },
 ];
 
@@ -44,6 +58,7 @@ pub fn kind(name: &str) -> Option<&'static SolverKind> {
 pub static SYMMETRIC: SolverKind = SolverKind {
     name: "symmetric",
     summary: "multifrontal without pivoting for symmetric matrices: half the work",
+    is_strict: false,
     real: |structure| Box::new(multifrontal::Symmetric::<f64>::new(structure)),
     complex: |structure| Box::new(multifrontal::Symmetric::<Complex64>::new(structure)),
 };

@@ -125,24 +125,47 @@ fn the_condition_estimate_is_close_to_the_truth() {
         for kind in KINDS {
             let mut solver = (kind.real)(&structure);
             solver.factor(&values).unwrap();
-            let mut inverse_norm = 0.0_f64;
+            let sum = |column: &[f64]| column.iter().map(|x| x.abs()).sum();
+            let (mut inverse_norm, mut norm) = (0.0_f64, 0.0_f64);
             for unknown in 0..model.size {
                 let mut column = vec![0.0; model.size];
                 column[unknown] = 1.0;
+                let mut product = vec![0.0; model.size];
+                pattern.multiply(&values, &column, &mut product);
+                norm = norm.max(sum(&product));
                 solver.solve(&mut column);
-                inverse_norm = inverse_norm.max(column.iter().map(|x| x.abs()).sum());
+                inverse_norm = inverse_norm.max(sum(&column));
             }
-            let norm = (0..model.size)
-                .map(|column| {
-                    let starts = pattern.column_starts();
-                    values[starts[column]..starts[column + 1]].iter().map(|x| x.abs()).sum()
-                })
-                .fold(0.0, f64::max);
-            let estimate = condition_estimate(&mut *solver, pattern, &values);
+            let estimate = condition_estimate(&mut *solver, pattern, &values, &[]);
             let exact = norm * inverse_norm;
             assert!(estimate <= exact * (1.0 + 1e-9) && estimate > exact / 3.0, "{estimate:e} for {exact:e}");
         }
     }
+}
+
+#[test]
+fn the_condition_estimate_does_not_depend_on_the_units_of_free_unknowns() {
+    let model = chain(60);
+    let structure = model.structure();
+    let pattern = &structure.pattern;
+    let values = model.values::<f64>(pattern, 3, 1.0);
+    let free: Vec<usize> = (0..model.size).step_by(3).collect();
+    let estimate = |values: &[f64], free: &[usize]| {
+        let mut solver = (kind("sparse").unwrap().real)(&structure);
+        solver.factor(values).unwrap();
+        condition_estimate(&mut *solver, pattern, values, free)
+    };
+    // Newtons beside megapascals: equations have the units of their unknowns.
+    let unit = |unknown: usize| if free.contains(&unknown) { 1e6 } else { 1.0 };
+    let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
+    let entries =
+        (0..model.size).flat_map(|column| (starts[column]..starts[column + 1]).map(move |k| (k, column)));
+    let scaled: Vec<f64> = entries.map(|(k, column)| values[k] * unit(rows[k]) / unit(column)).collect();
+    let (given, rescaled) = (estimate(&values, &free), estimate(&scaled, &free));
+    // Sweeps that balance are few.
+    assert!((rescaled / given - 1.0).abs() < 1e-3, "{given:e} and {rescaled:e}");
+    assert!(given < 3.0 * estimate(&values, &[]), "{given:e}");
+    assert!(estimate(&scaled, &[]) > 1e3 * given);
 }
 
 #[test]
@@ -169,7 +192,7 @@ fn the_complex_condition_estimate_is_close_to_the_truth() {
         let starts = pattern.column_starts();
         let norm =
             (0..model.size).map(|j| norm_of(&values[starts[j]..starts[j + 1]])).fold(0.0_f64, f64::max);
-        let estimate = condition_estimate(&mut *solver, pattern, &values);
+        let estimate = condition_estimate(&mut *solver, pattern, &values, &[]);
         let exact = norm * inverse_norm;
         assert!(estimate <= exact * (1.0 + 1e-9) && estimate > exact / 3.0, "{estimate:e} for {exact:e}");
     }

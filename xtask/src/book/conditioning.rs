@@ -3,12 +3,13 @@
 use std::thread;
 
 use lissom::Model;
+pub(super) use lissom::analyses::study::conditioning::SCALINGS;
 use lissom::core::saddle_point::TangentValues;
-use lissom::core::scaling::{ScaleBy, ScalingChoice};
+use lissom::core::scaling::ScalingChoice;
 use lissom::core::simulation::Simulation;
+use lissom::core::system::System;
 use lissom::start::{Lowered, lower};
 use lissom_model::output::LogFigure;
-use lissom_solver::{LinearSolver, Scalar, SolverKind, Structure, condition_estimate, kind};
 
 use super::fragment::{Fragment, overrides};
 use super::numbers::two;
@@ -20,13 +21,6 @@ use super::{BookError, Studio};
 pub(super) const MASS: &str = "point_masses.bob.mass";
 /// Step sizes for the tip crank [s].
 const CRANK_STEPS: [&str; 6] = ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7"];
-/// Scalings in the order of the columns: name, label of the curve, s, whether it is equilibrated.
-pub(super) const SCALINGS: [(&str, &str, ScaleBy, bool); 4] = [
-    ("none", "no scaling", ScaleBy::None, false),
-    ("unit", "s = 1", ScaleBy::Unit, false),
-    ("physical", "s physical", ScaleBy::Physical, false),
-    ("equilibrated", "equilibrated", ScaleBy::Physical, true),
-];
 /// Maximum number of real unknowns for which singular values are computed; a complex unknown counts twice.
 const MAX_MEASURED: usize = 120;
 
@@ -56,35 +50,21 @@ fn measure(model: &Model, example: &'static str, set: &[(&str, &str)]) -> Result
     let choice = simulation.settings().scaling;
     let choices = SCALINGS.map(|(_, _, by, equilibrated)| ScalingChoice { by, equilibrated, ..choice });
     let tangents = simulation.converged_tangents(&choices).unwrap_or_default();
-    let structure = simulation.system().structure();
-    let conditions: Vec<f64> = tangents.iter().map(|tangent| condition(structure, tangent)).collect();
+    let conditions: Vec<f64> =
+        tangents.iter().map(|tangent| condition(simulation.system(), tangent)).collect();
     conditions.try_into().map_err(|_| BookError::run(example)("the run has no steps"))
 }
 
 /// Condition number in the 2-norm, or its estimate in the 1-norm if the matrix is large.
-fn condition(structure: &Structure, tangent: &TangentValues) -> f64 {
+fn condition(system: &System, tangent: &TangentValues) -> f64 {
+    let pattern = &system.structure().pattern;
     match tangent {
-        TangentValues::Real(values) => condition_of(structure, values, |kind| (kind.real)(structure)),
-        TangentValues::Complex(values) => condition_of(structure, values, |kind| (kind.complex)(structure)),
-    }
-}
-
-fn condition_of<S: Scalar>(
-    structure: &Structure,
-    values: &[S],
-    solver: impl Fn(&SolverKind) -> Box<dyn LinearSolver<S>>,
-) -> f64 {
-    let real_size = if S::COMPLEX { 2 } else { 1 } * structure.pattern.size();
-    if real_size <= MAX_MEASURED {
-        return condition_number(&structure.pattern, values);
-    }
-    for kind in ["sparse", "pivoting"].into_iter().filter_map(kind) {
-        let mut solver = solver(kind);
-        if solver.factor(values).is_ok() {
-            return condition_estimate(&mut *solver, &structure.pattern, values).max(1.0);
+        TangentValues::Real(values) if pattern.size() <= MAX_MEASURED => condition_number(pattern, values),
+        TangentValues::Complex(values) if 2 * pattern.size() <= MAX_MEASURED => {
+            condition_number(pattern, values)
         }
+        large => large.condition_estimate(system),
     }
-    f64::INFINITY
 }
 
 /// Condition numbers at the end of a run for each of these sets of values.

@@ -120,3 +120,27 @@ fn results_of_studies_are_not_overwritten() {
     assert_eq!(again.code, 2);
     assert!(again.errors.contains("not overwritten"), "{}", again.errors);
 }
+
+#[test]
+fn condition_numbers_of_a_model_are_tabulated_with_their_exponents() {
+    let folder = Folder::new("study-conditioning");
+    let model = example("pendulum");
+    let arguments =
+        ["study", "conditioning", &model, "--steps", "1e-2,1e-3,1e-4", "--set", "analysis.end=0.01"];
+    let run = lissom(&arguments, folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("exponent of the step size [s]:  none -4.00  unit 0.00"), "{}", run.output);
+    let table = std::fs::read_to_string(folder.path().join("out/study-conditioning/pendulum.csv")).unwrap();
+    assert!(table.starts_with("step_size,none,unit,physical,equilibrated\n1e-2,"), "{table}");
+    assert_eq!(table.lines().count(), 4);
+    assert!(folder.path().join("out/study-conditioning/pendulum.svg").is_file());
+    // Over a value of the model, at one step; and with a run that fails.
+    let vary = ["--steps", "1e-2", "--vary", "point_masses.bob.mass=1,1e2,1e4"];
+    let run = lissom(&[&arguments[..3], &vary[..]].concat(), folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("exponent of the point_masses.bob.mass:  none 2.0"), "{}", run.output);
+    let failing = ["--steps", "1e-2,1e-3", "--set", "analysis.max_iterations=1"];
+    let run = lissom(&[&arguments[..3], &failing[..]].concat(), folder.path());
+    assert_eq!(run.code, 3, "{}", run.output);
+    assert!(run.errors.contains("max_iterations") && run.output.contains("failed"), "{}", run.errors);
+}

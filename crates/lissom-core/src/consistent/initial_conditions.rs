@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::open_trees;
 use super::redundancy::Redundancy;
-use super::rigid::RigidMatrix;
+use super::rigid::Known;
 use crate::errors::InitialError;
 use crate::errors::step_error::pivot_hint;
 use crate::interrupt::Interrupted;
@@ -56,8 +56,8 @@ pub struct ConsistentInitialConditions {
     starts: JointStarts,
     /// Positions of the factor; none if it is not that of all inertias.
     factored_at: Option<Kinematics>,
-    /// The matrix of rigid parts, if the system consists of them; none before it is needed.
-    rigid: Option<Option<Box<RigidMatrix>>>,
+    /// The matrix of rigid parts.
+    rigid: Known,
 }
 
 impl ConsistentInitialConditions {
@@ -80,7 +80,7 @@ impl ConsistentInitialConditions {
             weights: Vec::new(),
             starts: JointStarts::default(),
             factored_at: None,
-            rigid: None,
+            rigid: Known::NotYet,
         }
     }
 
@@ -98,7 +98,7 @@ impl ConsistentInitialConditions {
         }
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            self.rigid = None;
+            self.rigid = Known::NotYet;
         }
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
@@ -207,9 +207,9 @@ impl ConsistentInitialConditions {
         let (at, count) = (&state.kinematics, system.layout().coordinate_count());
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            (self.rigid, self.factored_at) = (None, None);
+            (self.rigid, self.factored_at) = (Known::NotYet, None);
         }
-        let rigid = RigidMatrix::renewed(&mut self.rigid, (system, at), self.redundancy.omitted());
+        let rigid = self.rigid.renewed((system, at), self.redundancy.omitted());
         if let Some(rigid) = rigid
             && rigid.factor().is_some()
         {

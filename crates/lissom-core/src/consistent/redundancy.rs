@@ -143,6 +143,11 @@ impl Redundancy {
         Self::found(system, at, length, false)
     }
 
+    /// No equation is omitted, redundant or not.
+    pub(crate) fn unexamined(length: f64) -> Self {
+        Self { length, ..Self::default() }
+    }
+
     /// Finds the equations of rates and accelerations that are redundant at a position, also where this is singular.
     pub(crate) fn of_rates(system: &System, at: &Kinematics, length: f64) -> Self {
         Self::found(system, at, length, true)
@@ -194,6 +199,14 @@ impl Redundancy {
     /// Multiplier of an equation that was dependent at the first position only, if the motion is still close to it.
     pub(crate) fn singular(&self) -> Option<usize> {
         self.groups.iter().filter(|group| group.latest < CLOSE).find_map(|group| group.singular)
+    }
+
+    /// Whether the equation of a multiplier is one of a loop whose equations are dependent at this position, only there or in the whole
+    /// motion: the rank of B, which no pivot of a tangent tells where its digits are lost.
+    pub(crate) fn is_dependent(&self, system: &System, at: &Kinematics, multiplier: usize) -> bool {
+        let has_it = |group: &Group| group.found.multipliers.contains(&multiplier);
+        let here = Self::of_rates(system, at, self.length);
+        here.groups.iter().any(|group| !group.selection.omitted.is_empty() && has_it(group))
     }
 
     /// Whether no equation is or may become redundant.

@@ -76,10 +76,62 @@ struct Equation {
     through: Vec<(usize, usize, f64)>,
 }
 
-impl RigidMatrix {
-    /// Matrix at these positions and those that follow; none if inertias are not constant blocks of parts, or a coordinate without
-    /// inertia is not determined by one equation.
-    fn new(system: &System, at: &Kinematics, omitted: &[usize]) -> Option<Self> {
+/// The matrix of a system, as far as it is known.
+#[derive(Default)]
+pub(crate) enum Known {
+    /// It has not been needed.
+    #[default]
+    NotYet,
+    /// Parts are not rigid, or constraints nearly dependent at once.
+    Without,
+    /// There is one.
+    Of(Box<RigidMatrix>),
+}
+
+impl Known {
+    /// The matrix, which is made where there is none or other constraints are released than before, with the gradients of these
+    /// positions; none if there is none for the system.
+    pub(crate) fn renewed(
+        &mut self,
+        (system, at): (&System, &Kinematics),
+        omitted: &[usize],
+    ) -> Option<&mut RigidMatrix> {
+        let is_same = |known: &RigidMatrix| {
+            let mut both = known.constraints.iter().zip(system.constraints());
+            both.all(|(own, constraint)| own.is_released == constraint.is_released(at))
+        };
+        let is_known = match self {
+            Self::NotYet => false,
+            Self::Without => true,
+            Self::Of(known) => is_same(known),
+        };
+        if !is_known {
+            // A factor that fails at once would fail at every record.
+            let regular = RigidMatrix::new(system, at, omitted).and_then(|mut new| {
+                new.gather(system, at).and_then(|()| new.factor())?;
+                Some(Self::Of(Box::new(new)))
+            });
+            *self = regular.unwrap_or(Self::Without);
+        }
+        let Self::Of(matrix) = self else { return None };
+        matrix.gather(system, at)?;
+        Some(matrix)
+    }
+}
+
+/// Where nodes and coordinates are among the parts.
+struct Places {
+    parts: Vec<Part>,
+    of_node: Vec<usize>,
+    /// Part, or which of the coordinates without inertia.
+    of_coordinate: Vec<(usize, usize)>,
+    /// Row and equation of each coordinate without inertia.
+    eliminated: Vec<(usize, usize)>,
+}
+
+impl Places {
+    /// None if inertias are not constant blocks of parts.
+    fn of(system: &System, at: &Kinematics) -> Option<Self> {
         let (layout, count) = (system.layout(), system.layout().coordinate_count());
         if !has_constant_inertias(system, at) {
             return None;
@@ -97,7 +149,6 @@ impl RigidMatrix {
             Some(parts.len() - 1)
         };
         let of_node = layout.node_rows.iter().map(|rows| add(*rows)).collect::<Option<Vec<usize>>>()?;
-        // Part, or which of the coordinates without inertia.
         let mut place = |&row: &u32| {
             if entry(row as usize, row as usize) == 0.0 {
                 eliminated.push((row as usize, NONE));
@@ -105,99 +156,136 @@ impl RigidMatrix {
             }
             Some((add([row, LOCKED, LOCKED, LOCKED, LOCKED, LOCKED])?, NONE))
         };
-        let of_coordinate =
-            layout.coordinate_rows.iter().map(&mut place).collect::<Option<Vec<(usize, usize)>>>()?;
+        let of_coordinate = layout.coordinate_rows.iter().map(&mut place).collect::<Option<_>>()?;
         let pattern = &system.structure().pattern;
         let couples = |column: usize| {
             let mut others = pattern.column(column).iter().filter(|&&row| row < count);
             others.any(|&row| part_of_row[row] != part_of_row[column] && entry(row, column) != 0.0)
         };
-        if (0..count).any(couples) {
+        let is_coupled = (0..count).any(couples);
+        (!is_coupled).then_some(Self { parts, of_node, of_coordinate, eliminated })
+    }
+}
+
+/// Constraints and their equations, as they are added.
+struct Equations {
+    places: Places,
+    constraints: Vec<Placed>,
+    equations: Vec<Equation>,
+    groups: Vec<Group>,
+    /// Number of unknowns.
+    kept: usize,
+    zero: Vec<usize>,
+    gradient: Vec<f64>,
+}
+
+impl Equations {
+    /// Adds a constraint, of which `determines` may determine coordinates; none if a coordinate without inertia is not determined by one
+    /// equation.
+    fn add(
+        &mut self,
+        constraint: &dyn Constraint,
+        (count, at): (usize, &Kinematics),
+        determines: bool,
+    ) -> Option<()> {
+        let (size, first) = (constraint.size(), count + constraint.first_multiplier());
+        let is_released = constraint.is_released(at);
+        let (mut columns, mut through, mut free) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut own_parts, begin) = (Vec::new(), self.equations.len());
+        if is_released {
+            self.zero.extend(first..first + constraint.equations());
+            self.constraints.push(Placed { is_released, columns, equations: begin..begin });
+            return Some(());
+        }
+        if constraint.arrangements() > 1 {
             return None;
         }
-        let mut zero: Vec<usize> = omitted.iter().map(|multiplier| count + multiplier).collect();
-        let (mut constraints, mut equations, mut gradient) = (Vec::new(), Vec::<Equation>::new(), Vec::new());
-        let (mut kept, mut groups) = (0, Vec::new());
-        // Joints are first: each determines its own coordinates.
-        for (position, constraint) in system.constraints().enumerate() {
-            let (size, first) = (constraint.size(), count + constraint.first_multiplier());
-            let is_released = constraint.is_released(at);
-            let (mut columns, mut through, mut free) = (Vec::new(), Vec::new(), Vec::new());
-            let (mut own_parts, begin) = (Vec::new(), equations.len());
-            if is_released {
-                zero.extend(first..first + constraint.equations());
-                constraints.push(Placed { is_released, columns, equations: begin..begin });
-                continue;
-            }
-            if constraint.arrangements() > 1 {
-                return None;
-            }
-            evaluate(constraint, at, &mut gradient);
-            for port in (0..constraint.ports()).map(|port| constraint.port(0, port)) {
-                let (part, which) = match port {
-                    Port::Node(node) => (of_node[node.index()], NONE),
-                    Port::NoNode => return None,
-                    Port::Coordinate(coordinate) => of_coordinate[coordinate.index()],
-                };
-                if which != NONE {
-                    match eliminated[which].1 {
-                        NONE if position < system.joints().len() => free.push((columns.len(), which)),
-                        NONE => return None,
-                        known => {
-                            through.push((columns.len(), which, 0.0));
-                            equations[known]
-                                .parts
-                                .iter()
-                                .for_each(|&part| _ = index_of(&mut own_parts, part));
-                        }
+        evaluate(constraint, at, &mut self.gradient);
+        for port in (0..constraint.ports()).map(|port| constraint.port(0, port)) {
+            let (part, which) = match port {
+                Port::Node(node) => (self.places.of_node[node.index()], NONE),
+                Port::NoNode => return None,
+                Port::Coordinate(coordinate) => self.places.of_coordinate[coordinate.index()],
+            };
+            if which != NONE {
+                match self.places.eliminated[which].1 {
+                    NONE if determines => free.push((columns.len(), which)),
+                    NONE => return None,
+                    known => {
+                        through.push((columns.len(), which, 0.0));
+                        let others = &self.equations[known].parts;
+                        others.iter().for_each(|&part| _ = index_of(&mut own_parts, part));
                     }
                 }
-                let index = if part == NONE { NONE } else { index_of(&mut own_parts, part) };
-                columns.extend((0..port.width()).map(|component| (index, component)));
             }
-            let slope = |e: usize, local: usize| gradient[e * size + local].abs();
-            let largest =
-                |local: usize| (0..constraint.equations()).map(|e| slope(e, local)).fold(0.0, f64::max);
-            let mut group = Vec::new();
-            for e in 0..constraint.equations() {
-                let mut own = free
-                    .iter()
-                    .filter(|&&(local, _)| slope(e, local) > round_off::MATRIX_ENTRY * largest(local));
-                let determines = own.next();
-                if own.next().is_some() || determines.is_some_and(|own| eliminated[own.1].1 != NONE) {
-                    return None;
-                }
-                let is_omitted = zero.contains(&(first + e));
-                if is_omitted && determines.is_none() {
-                    continue;
-                }
-                let index = if let Some(&(_, which)) = determines {
-                    eliminated[which].1 = equations.len();
-                    NONE
-                } else {
-                    group.push(kept);
-                    kept += 1;
-                    kept - 1
-                };
-                if is_omitted || determines.is_some() && !through.is_empty() {
-                    return None;
-                }
-                let blocks = vec![Vector6::zeros(); own_parts.len()];
-                equations.push(Equation {
-                    number: e,
-                    row: first + e,
-                    index,
-                    determines: determines.map(|own| own.0),
-                    slope: 1.0,
-                    parts: own_parts.clone(),
-                    weighted: blocks.clone(),
-                    blocks,
-                    through: through.clone(),
-                });
-            }
-            constraints.push(Placed { is_released, columns, equations: begin..equations.len() });
-            groups.extend((!group.is_empty()).then_some(Group { unknowns: group, hosts: vec![] }));
+            let index = if part == NONE { NONE } else { index_of(&mut own_parts, part) };
+            columns.extend((0..port.width()).map(|component| (index, component)));
         }
+        let slope = |e: usize, local: usize| self.gradient[e * size + local].abs();
+        let largest = |local: usize| (0..constraint.equations()).map(|e| slope(e, local)).fold(0.0, f64::max);
+        let mut group = Vec::new();
+        for e in 0..constraint.equations() {
+            let mut own =
+                free.iter().filter(|&&(local, _)| slope(e, local) > round_off::MATRIX_ENTRY * largest(local));
+            let determines = own.next();
+            let eliminated = &mut self.places.eliminated;
+            if own.next().is_some() || determines.is_some_and(|own| eliminated[own.1].1 != NONE) {
+                return None;
+            }
+            let is_omitted = self.zero.contains(&(first + e));
+            if is_omitted && determines.is_none() {
+                continue;
+            }
+            let index = if let Some(&(_, which)) = determines {
+                eliminated[which].1 = self.equations.len();
+                NONE
+            } else {
+                group.push(self.kept);
+                self.kept += 1;
+                self.kept - 1
+            };
+            if is_omitted || determines.is_some() && !through.is_empty() {
+                return None;
+            }
+            let blocks = vec![Vector6::zeros(); own_parts.len()];
+            self.equations.push(Equation {
+                number: e,
+                row: first + e,
+                index,
+                determines: determines.map(|own| own.0),
+                slope: 1.0,
+                parts: own_parts.clone(),
+                weighted: blocks.clone(),
+                blocks,
+                through: through.clone(),
+            });
+        }
+        self.constraints.push(Placed { is_released, columns, equations: begin..self.equations.len() });
+        self.groups.extend((!group.is_empty()).then_some(Group { unknowns: group, hosts: vec![] }));
+        Some(())
+    }
+}
+
+impl RigidMatrix {
+    /// Matrix at these positions and those that follow; none if inertias are not constant blocks of parts, or a coordinate without
+    /// inertia is not determined by one equation.
+    fn new(system: &System, at: &Kinematics, omitted: &[usize]) -> Option<Self> {
+        let count = system.layout().coordinate_count();
+        let mut all = Equations {
+            places: Places::of(system, at)?,
+            constraints: Vec::new(),
+            equations: Vec::new(),
+            groups: Vec::new(),
+            kept: 0,
+            zero: omitted.iter().map(|multiplier| count + multiplier).collect(),
+            gradient: Vec::new(),
+        };
+        // Joints are first: each determines its own coordinates.
+        for (position, constraint) in system.constraints().enumerate() {
+            all.add(constraint, (count, at), position < system.joints().len())?;
+        }
+        let Equations { places, constraints, equations, groups, kept, zero, gradient } = all;
+        let Places { parts, eliminated, .. } = places;
         if kept == 0 || eliminated.iter().any(|own| own.1 == NONE) {
             return None;
         }
@@ -230,30 +318,8 @@ impl RigidMatrix {
         })
     }
 
-    /// The matrix of `kept`, which is made where there is none or other constraints are released than before, with the gradients of these
-    /// positions; none if there is none for the system.
-    pub(crate) fn renewed<'m>(
-        kept: &'m mut Option<Option<Box<Self>>>,
-        (system, at): (&System, &Kinematics),
-        omitted: &[usize],
-    ) -> Option<&'m mut Self> {
-        let is_same = |known: &Self| {
-            let mut both = known.constraints.iter().zip(system.constraints());
-            both.all(|(own, constraint)| own.is_released == constraint.is_released(at))
-        };
-        if !kept.as_ref().is_some_and(|known| known.as_deref().is_none_or(is_same)) {
-            // A factor that fails at once would fail at every record.
-            let is_regular = |new: &mut Self| new.gather(system, at).and_then(|()| new.factor()).is_some();
-            let new = Self::new(system, at, omitted).and_then(|mut new| is_regular(&mut new).then_some(new));
-            *kept = Some(new.map(Box::new));
-        }
-        let matrix = kept.as_mut()?.as_deref_mut()?;
-        matrix.gather(system, at)?;
-        Some(matrix)
-    }
-
     /// Row and inertia of each coordinate without inertia of its own: that of its parts if they could move freely, the smallest possible.
-    pub(crate) fn inertias_of_coordinates(&self) -> impl ExactSizeIterator<Item = (usize, f64)> + '_ {
+    pub(crate) fn inertias_of_coordinates(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.eliminated.iter().map(|&(row, equation)| {
             let Equation { blocks, weighted, slope, .. } = &self.equations[equation];
             let compliance: f64 =

@@ -12,6 +12,7 @@ mod planned;
 pub(crate) use interface::{Control, Review};
 
 use crate::settings::Settings;
+use crate::solver_features::SolverFeature;
 
 /// The control required by the settings.
 pub(crate) fn of(settings: &Settings) -> Box<dyn Control> {
@@ -20,6 +21,10 @@ pub(crate) fn of(settings: &Settings) -> Box<dyn Control> {
             Box::new(adaptive::Adaptive::new(control, settings.step_size))
         }
         Some(control) => Box::new(load::LoadSteps::new(control, settings.step_size)),
-        None => Box::new(planned::Planned::new(settings.step_size, settings.limits.disabled)),
+        None => {
+            let may_bisect =
+                settings.limits.disabled.allows(SolverFeature::StepBisection) && !settings.solver.is_strict;
+            Box::new(planned::Planned::new(settings.step_size, may_bisect))
+        }
     }
 }

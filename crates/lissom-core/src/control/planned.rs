@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::interface::Control;
 use crate::bytes::{read_bytes, to_bytes};
 use crate::integrator::Attempt;
-use crate::solver_features::{DisabledFeatures, SolverFeature};
 use crate::tuning::{MAX_HALVINGS, Tuning};
 
 /// After this number of consecutive parts of a planned step the next one is twice as long.
@@ -28,8 +27,7 @@ pub(crate) struct Planned {
 
 impl Planned {
     /// At the start, with steps of `size` [s].
-    pub(crate) fn new(size: f64, disabled: DisabledFeatures) -> Self {
-        let may_bisect = disabled.allows(SolverFeature::StepBisection);
+    pub(crate) fn new(size: f64, may_bisect: bool) -> Self {
         Self { size, distance: size, bisection: StepBisection::whole(), may_bisect }
     }
 }

@@ -384,6 +384,27 @@ diagnostics! {
             meaning: "Elimination stops at a vanishing pivot: a part is not constrained, or an equation is redundant.",
             advice: "Add a mass, a stiffness or a joint, or remove the redundant constraint.",
         }
+        /// A pivot of an equation that does not depend on others vanished, and no solver is to exchange rows.
+        PivotLost {
+            /// End of the step [s].
+            time: f64,
+            /// The pivot.
+            pivot: f64,
+            /// Sum of the magnitudes of its terms.
+            terms: f64,
+            /// Name of the multiplier.
+            unknown: Subject,
+            /// What to try.
+            hint: &'static str,
+        } => "pivot-lost" {
+            time: *time,
+            subject: unknown,
+            cause: ("step to t = {time} s: elimination without exchanges of rows stops at the {unknown}: its equation does not depend on \
+                    others, but a pivot of {pivot:.1e} is left of terms of {terms:.1e}, which is their round-off"),
+            remedy: "{hint}",
+            meaning: "With `solver = \"strict\"` elimination stops at a pivot that is only round-off, although no constraint is redundant.",
+            advice: "Set `augmented = true` and `scaling = \"physical\"`, or use the solver `sparse`, which continues with exchanges of rows.",
+        }
         /// A unit of another program failed.
         Unit {
             /// Time of the sample [s].
@@ -491,11 +512,25 @@ pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'
         }
         return "the joint's equation is redundant with those of other joints: remove or relax one of them";
     }
+    undetermined_hint(augmented)
+}
+
+/// What to try when nothing determines a coordinate.
+pub(crate) fn undetermined_hint(augmented: bool) -> &'static str {
     if !augmented {
         return "a coordinate without mass and stiffness requires the augmented term: set `augmented = true`";
     }
     "it has no resistance in this position: add mass, stiffness or a joint (a junction of springs needs a mass), or start the search for an equilibrium from another position, \
      where weight or a spring determines it"
+}
+
+/// What to try when a multiplier has lost its pivot although its equation does not depend on others.
+pub(crate) fn lost_pivot_hint(augmented: bool) -> &'static str {
+    if augmented {
+        return "set `scaling = \"physical\"` or a larger `penalty`, or let `solver = \"sparse\"` exchange rows there";
+    }
+    "a coordinate without mass and stiffness has no pivot without the augmented term, and leaves none: set `augmented = true`, or let \
+     `solver = \"sparse\"` exchange rows there"
 }
 
 /// A failure of Newton's method as that of a step to `time` [s], with names.

@@ -144,7 +144,7 @@ impl StepEquations<'_> {
         let at = (&self.work.motions[0].at, self.system.layout());
         pattern.assemble(smooth, touches, at, &mut values);
         self.work.tangent.matrices.set_values(0, TangentValues::Real(values));
-        self.work.tangent.renew(&pattern.structure, self.scaled.scale())?;
+        self.work.tangent.renew(&pattern.structure, self.scaled.scale(), &mut |_| true)?;
         Ok(())
     }
 

@@ -16,7 +16,7 @@ use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity, Stressed, Subject}
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
 use crate::saddle_point::{REDUNDANT, TangentValues};
-use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
+use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion, state_rows};
 use crate::schemes::{MAX_STAGES, Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
@@ -462,6 +462,13 @@ impl StepEquations<'_> {
         }
     }
 
+    /// Whether an unknown is a multiplier whose equation does not depend on others at the last iterate.
+    pub(crate) fn is_independent(&self, unknown: usize) -> bool {
+        let (work, count) = (&*self.work, self.system.layout().coordinate_count());
+        let at = &work.motions[self.scheme.stages.len() - 1].at;
+        unknown >= count && !work.redundancy.is_dependent(self.system, at, unknown - count)
+    }
+
     /// Rejects a stiffness that is singular except for round-off because an elastic solid can move freely: no pivot vanishes exactly. Lines
     /// and sheets without tension are singular, too, and find their equilibrium.
     fn check_resistance(&mut self, report: &FactorReport) -> Result<(), FactorError> {
@@ -479,7 +486,8 @@ impl StepEquations<'_> {
         };
         if report.worst_cancellation < REDUNDANT
             && is_of_solid()
-            && tangent.matrices.condition_estimate(&self.system.structure().pattern) > SINGULAR
+            && tangent.matrices.condition_estimate(&self.system.structure().pattern, &state_rows(layout))
+                > SINGULAR
         {
             return Err(FactorError::ZeroPivot { unknown, pivot, largest: report.largest_diagonal });
         }
@@ -563,7 +571,11 @@ impl Equations for StepEquations<'_> {
         }
         self.work.round_off.force = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
-        let report = self.work.tangent.renew(self.system.structure(), self.scaled.scale())?;
+        let Workspace { redundancy, tangent, motions, .. } = &mut *self.work;
+        let (system, count) = (self.system, self.system.layout().coordinate_count());
+        let reached = &motions[self.scheme.stages.len() - 1].at;
+        let mut is_dependent = |unknown: usize| redundancy.is_dependent(system, reached, unknown - count);
+        let report = tangent.renew(system.structure(), self.scaled.scale(), &mut is_dependent)?;
         if !self.scheme.dynamic {
             self.check_resistance(&report)?;
         }

@@ -25,7 +25,7 @@ use lissom_solver::{FactorError, SolverKind};
 use crate::consistent::initial_conditions::visit_rates;
 use crate::consistent::redundancy::Redundancy;
 use crate::errors::StepError;
-use crate::errors::step_error::describe;
+use crate::errors::step_error::{describe, lost_pivot_hint, undetermined_hint};
 use crate::integrator::dense::{DenseOutput, SolvedStages};
 use crate::integrator::equations::StepEquations;
 use crate::integrator::projection::Projection;
@@ -84,7 +84,7 @@ impl Integrator {
         (work.options.disabled, work.options.tuning) = (settings.limits.disabled, settings.limits.tuning);
         work.evaluation.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.tangent.matrices.set_threads(settings.threads);
-        work.tangent = work.tangent.falling_back(settings.solver.name);
+        work.tangent = work.tangent.falling_back(settings.solver);
         let has_constraints = !system.layout().multiplier_rows().is_empty();
         let projection = scheme
             .tableau
@@ -367,9 +367,24 @@ fn describe_failure(
     // With a pivoting solver a smaller step may succeed.
     let pivoted = !matches!(failure, Failure::Factor(_));
     let failure = equations.unforgiven(failure);
+    let independent = match failure {
+        Failure::Factor(FactorError::ZeroPivot { unknown, .. }) => equations.is_independent(unknown),
+        _ => false,
+    };
+    if let Failure::Factor(FactorError::ZeroPivot { unknown, pivot, largest }) = failure
+        && independent
+        && settings.solver.is_strict
+    {
+        let (unknown, hint) =
+            (system.layout().subject_of(unknown), lost_pivot_hint(settings.scaling.augmented));
+        return StepError::PivotLost { time: end, pivot, terms: largest, unknown, hint };
+    }
     let mut error = describe(&failure, system.layout(), end, settings, &equations.worst_unknown());
-    if let StepError::ZeroPivot { after_pivoting, .. } = &mut error {
+    if let StepError::ZeroPivot { after_pivoting, hint, .. } = &mut error {
         *after_pivoting = pivoted;
+        if independent {
+            *hint = undetermined_hint(settings.scaling.augmented);
+        }
     }
     error
 }

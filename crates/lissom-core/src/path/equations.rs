@@ -393,7 +393,7 @@ impl PathEquations<'_> {
         }
         let raw = (may_have_potential && work.has_potential.is_none()).then(|| values.clone());
         (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
-        work.saddle.renew(structure, scale)?;
+        work.saddle.renew(structure, scale, &mut |_| true)?;
         work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
         if let Some(mut values) = raw.filter(|_| !work.is_symmetric) {
             iterate::hold_unbalanced_forces(system.layout(), &structure.pattern, &mut values);
@@ -402,7 +402,7 @@ impl PathEquations<'_> {
             if has_potential {
                 potential::symmetrise(&structure.pattern, &mut values, count);
                 work.saddle.matrices.values = values;
-                work.saddle.renew(structure, scale)?;
+                work.saddle.renew(structure, scale, &mut |_| true)?;
                 work.is_symmetric = true;
             }
         }

@@ -127,8 +127,10 @@ impl<M: Matrices> SaddlePoint<M> {
     }
 
     /// This problem, continued with a solver that exchanges rows where a pivot vanishes without; `own` is the solver in use.
-    pub(crate) fn falling_back(mut self, own: &str) -> Self {
-        self.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != own);
+    pub(crate) fn falling_back(mut self, own: &SolverKind) -> Self {
+        self.fall_back =
+            lissom_solver::kind("pivoting").filter(|kind| kind.name != own.name && !own.is_strict);
+        self.omits &= !own.is_strict;
         self
     }
 
@@ -144,16 +146,21 @@ impl<M: Matrices> SaddlePoint<M> {
     /// If a pivot vanishes with and without exchanges of rows, or a number is not finite.
     pub(crate) fn factor(&mut self, structure: &Structure, scale: f64) -> Result<FactorReport, FactorError> {
         self.dependent.clear();
-        self.factor_with(structure, scale, 1.0)
+        self.factor_with(structure, scale, 1.0, &mut |_| true)
     }
 
-    /// Factors an iterate of a nonlinear problem. What is dependent in its position is not omitted, but has a small compliance, and
-    /// retains it at all further iterates.
+    /// Factors an iterate of a nonlinear problem. What `is_dependent` in its position is not omitted, but has a small compliance, and
+    /// retains it at all further iterates; other pivots are lost to round-off, and require exchanges of rows.
     ///
     /// # Errors
     /// As of [`factor`](Self::factor).
-    pub(crate) fn renew(&mut self, structure: &Structure, scale: f64) -> Result<FactorReport, FactorError> {
-        self.factor_with(structure, scale, COMPLIANCE)
+    pub(crate) fn renew(
+        &mut self,
+        structure: &Structure,
+        scale: f64,
+        is_dependent: &mut dyn FnMut(usize) -> bool,
+    ) -> Result<FactorReport, FactorError> {
+        self.factor_with(structure, scale, COMPLIANCE, is_dependent)
     }
 
     /// Factors with this `compliance` of dependent equations.
@@ -162,6 +169,7 @@ impl<M: Matrices> SaddlePoint<M> {
         structure: &Structure,
         scale: f64,
         compliance: f64,
+        is_dependent: &mut dyn FnMut(usize) -> bool,
     ) -> Result<FactorReport, FactorError> {
         self.report = None;
         if let Some(equilibration) = &mut self.equilibration {
@@ -182,38 +190,46 @@ impl<M: Matrices> SaddlePoint<M> {
         {
             result = self.matrices.factor();
         }
+        let mut lost = None;
         while self.omits
-            && let Some(unknown) = self.depending(&result)
+            && let Some((unknown, pivot)) = self.depending(&result)
             && !self.omitted.contains(&unknown)
             && !self.dependent.contains(&unknown)
         {
+            if !is_dependent(unknown) {
+                lost = Some((unknown, pivot));
+                break;
+            }
             self.dependent.push(unknown);
             self.matrices.omit(structure, unknown, compliance * diagonal);
             result = self.matrices.factor();
         }
-        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
+        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result {
+            lost = Some((unknown, pivot));
+        }
+        if lost.is_some()
             && let Some(kind) = self.fall_back.take()
         {
-            self.fell_back = Some((unknown, pivot));
+            self.fell_back = lost;
             self.matrices.replace_solver(kind, structure);
             // What elimination without exchanges stops at says more than where exchanges end.
-            result = self.matrices.factor().or(result);
+            result = self.matrices.factor().or_else(|error| result.and(Err(error)));
         }
         self.report = result.ok();
         result
     }
 
-    /// The multiplier whose equation depends on others, if there is one: its pivot, after those of the coordinates, is only
-    /// round-off.
-    fn depending(&self, result: &Result<FactorReport, FactorError>) -> Option<usize> {
-        let unknown = match result {
+    /// The multiplier whose equation may depend on others, if there is one: its pivot, after those of the coordinates, is only
+    /// round-off. With the pivot, relative to its terms if elimination went on.
+    fn depending(&self, result: &Result<FactorReport, FactorError>) -> Option<(usize, f64)> {
+        let (unknown, pivot) = match result {
             Ok(report) if report.worst_cancellation < REDUNDANT && !self.matrices.exchanges_rows() => {
-                report.worst_cancellation_unknown
+                (report.worst_cancellation_unknown, report.worst_cancellation)
             }
-            Err(FactorError::ZeroPivot { unknown, .. }) => *unknown,
+            Err(FactorError::ZeroPivot { unknown, pivot, .. }) => (*unknown, *pivot),
             Ok(_) | Err(FactorError::NotFinite { .. } | FactorError::Interrupted) => return None,
         };
-        (unknown >= self.coordinate_count).then_some(unknown)
+        (unknown >= self.coordinate_count).then_some((unknown, pivot))
     }
 
     /// The report of the last factorisation, if it has succeeded.

@@ -239,11 +239,14 @@ impl StageTangents {
         }
     }
 
-    /// Estimates the condition number of the tangent factored last, in the 1-norm: the largest of all systems.
-    pub(crate) fn condition_estimate(&mut self, pattern: &Pattern) -> f64 {
+    /// Estimates the condition number of the tangent factored last, in the 1-norm, with any units of the unknowns `states`: the largest of
+    /// all systems.
+    pub(crate) fn condition_estimate(&mut self, pattern: &Pattern, states: &[usize]) -> f64 {
         let estimate = |system: &mut FactoredSystem| match system {
-            FactoredSystem::Real(own) => condition_estimate(&mut *own.solver, pattern, &own.values),
-            FactoredSystem::Complex(own) => condition_estimate(&mut *own.solver, pattern, &own.values),
+            FactoredSystem::Real(own) => condition_estimate(&mut *own.solver, pattern, &own.values, states),
+            FactoredSystem::Complex(own) => {
+                condition_estimate(&mut *own.solver, pattern, &own.values, states)
+            }
         };
         let estimates = self.systems.iter_mut().map(estimate);
         estimates.reduce(|most, own| if own <= most { most } else { own }).unwrap_or(1.0)

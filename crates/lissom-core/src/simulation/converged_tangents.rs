@@ -1,13 +1,13 @@
 //! Tangents at the solution of a step, under any scaling. Independent of the scheme, except for its tangent.
 
-use lissom_solver::Pattern;
+use lissom_solver::{Pattern, Structure, condition_estimate};
 
-use crate::saddle_point::TangentValues;
 use crate::saddle_point::equilibration::Equilibration;
-use crate::scaling::{Scaled, ScalingChoice};
+use crate::saddle_point::{SolverOf, TangentValues};
+use crate::scaling::{Scaled, ScalingChoice, state_rows};
 use crate::schemes::StageSystem;
 use crate::simulation::Simulation;
-use crate::system::{Sum, TangentAssembler};
+use crate::system::{Sum, System, TangentAssembler};
 
 impl TangentValues {
     /// Scales rows and columns to equal magnitude, see [`Equilibration`].
@@ -37,6 +37,27 @@ impl TangentValues {
             _ => unreachable!("a tangent is made for its scheme's coupling"),
         }
     }
+}
+
+impl TangentValues {
+    /// Condition number of a tangent of `system`, estimated in the 1-norm, with units of states in which it is least; infinite if it is
+    /// singular.
+    pub fn condition_estimate(&self, system: &System) -> f64 {
+        let (structure, states) = (system.structure(), state_rows(system.layout()));
+        match self {
+            Self::Real(values) => estimate(structure, (values, &states)),
+            Self::Complex(values) => estimate(structure, (values, &states)),
+        }
+    }
+}
+
+/// Estimate of a condition number, with the first solver that factors the matrix.
+fn estimate<S: SolverOf>(structure: &Structure, (values, states): (&[S], &[usize])) -> f64 {
+    let mut solvers = lissom_solver::KINDS.iter().map(|kind| S::solver(kind, structure));
+    let factored = solvers.find_map(|mut own| own.factor(values).is_ok().then_some(own));
+    factored.map_or(f64::INFINITY, |mut own| {
+        condition_estimate(&mut *own, &structure.pattern, values, states).max(1.0)
+    })
 }
 
 impl Simulation {

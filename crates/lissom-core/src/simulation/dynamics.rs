@@ -26,7 +26,7 @@ use crate::judge::{self, Judge};
 use crate::monitors::{self, Accepted, Beginning, Monitors};
 use crate::newton::Failure;
 use crate::saddle_point::TangentValues;
-use crate::scaling::{Representative, Scaled};
+use crate::scaling::{Representative, Scaled, state_rows};
 use crate::schemes::StageSystem;
 use crate::settings::Problem;
 use crate::settings::Settings;
@@ -70,7 +70,11 @@ impl Simulation {
             let at_start = system.linearization_at(&state.kinematics);
             Representative::of(&system, &state.kinematics, &at_start)
         });
-        let redundancy = Redundancy::new(&system, &state.kinematics, representative.length);
+        let redundancy = if settings.solver.is_strict {
+            Redundancy::unexamined(representative.length)
+        } else {
+            Redundancy::new(&system, &state.kinematics, representative.length)
+        };
         warnings.extend(out_of_line(&system, &state, &redundancy)?);
         let mut velocity_correction = 0.0;
         let mut held_values = None;
@@ -126,9 +130,10 @@ impl Simulation {
 
     /// Condition number of the tangent factored last, estimated in the 1-norm from a few solves; none if it is no longer in use.
     pub fn condition_estimate(&mut self) -> Option<f64> {
-        let pattern = &self.system.structure().pattern;
+        let (pattern, states) = (&self.system.structure().pattern, state_rows(self.system.layout()));
         let Integrator { jacobian_state, work, .. } = &mut self.integrator;
-        let value = jacobian_state.has_tangent.then(|| work.tangent.matrices.condition_estimate(pattern));
+        let matrices = &mut work.tangent.matrices;
+        let value = jacobian_state.has_tangent.then(|| matrices.condition_estimate(pattern, &states));
         value.map(|value| value.max(1.0))
     }
 

@@ -177,7 +177,9 @@ impl WindBox {
                     }
                 }
             }
-            slopes.iter_mut().for_each(|slope| *slope /= self.step[k]);
+            for slope in slopes.iter_mut() {
+                *slope /= self.step[k];
+            }
         }
         let [across, upwards, over] = &axes;
         let mut found = [0.0; 4];

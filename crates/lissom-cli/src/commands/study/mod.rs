@@ -1,5 +1,6 @@
 //! `lissom study`: series of runs that show the effects of scheme and step size on a model. One study per file.
 
+mod conditioning;
 mod convergence;
 
 use std::fmt::Write;
@@ -26,12 +27,14 @@ pub(super) struct Study {
 
 #[derive(Subcommand)]
 enum Kind {
+    Conditioning(conditioning::Conditioning),
     Convergence(convergence::Convergence),
 }
 
 impl Study {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         match self.kind {
+            Kind::Conditioning(study) => study.run(),
             Kind::Convergence(study) => study.run(),
         }
     }

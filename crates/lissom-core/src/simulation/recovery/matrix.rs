@@ -12,7 +12,7 @@ use lissom_solver::{Pattern, SolverKind};
 
 use super::stiff_parts::StiffParts;
 use crate::consistent::redundancy::Redundancy;
-use crate::consistent::rigid::{self, RigidMatrix, WELL_CONDITIONED};
+use crate::consistent::rigid::{self, Known, WELL_CONDITIONED};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, Layout, MotionChange};
@@ -23,6 +23,9 @@ use crate::system::{Blend, Scratch, State, Sum, System, TangentAssembler};
 /// Relative change of velocities by the filter below which it is omitted: steps resolve such vibrations, so that their forces are more exact
 /// without it.
 const NEGLIGIBLE_FILTER: f64 = 1e-6;
+
+/// Inertias of coordinates change less than by this factor from record to record.
+const CERTAIN: f64 = 10.0;
 
 /// Consecutive entries of a column in consecutive rows.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +40,8 @@ pub(super) struct Run {
 pub(super) struct RecoveryMatrix {
     saddle: SaddlePoint<Matrix<f64>>,
     redundancy: Redundancy,
-    /// The matrix of rigid parts without stiffness, if the system consists of them; none before it is needed. It was factored last if
-    /// `is_rigid`.
-    rigid: Option<Option<Box<RigidMatrix>>>,
+    /// The matrix of rigid parts without stiffness. It was factored last if `is_rigid`.
+    rigid: Known,
     is_rigid: bool,
     /// Elements that may be stiff, if there are any.
     stiff: Option<StiffParts>,
@@ -85,7 +87,11 @@ impl RecoveryMatrix {
         Self {
             saddle,
             redundancy,
-            rigid: (!rigid::has_constant_inertias(system, &state.kinematics)).then_some(None),
+            rigid: if rigid::has_constant_inertias(system, &state.kinematics) {
+                Known::NotYet
+            } else {
+                Known::Without
+            },
             is_rigid: false,
             stiff: system.has_stiff_elements().then(|| StiffParts::new((system, &state.kinematics))),
             scratch: None,
@@ -117,7 +123,9 @@ impl RecoveryMatrix {
         system.begin_step(at, &mut self.starts);
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            self.rigid.take_if(|rigid| rigid.is_some());
+            if matches!(self.rigid, Known::Of(_)) {
+                self.rigid = Known::NotYet;
+            }
         }
         let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
         if let Some(stiff) = &mut self.stiff {
@@ -135,15 +143,17 @@ impl RecoveryMatrix {
     /// Factors the matrix of rigid parts; none if there are others, or stiffness is not negligible.
     fn factor_rigid(&mut self, (system, at): (&System, &Kinematics), limits: (f64, f64)) -> Option<()> {
         let Self { rigid, redundancy, stiff, between_motions: runs, .. } = self;
-        // Stiffness between nodes is known before gradients are.
-        let is_stiff = |own: &mut StiffParts| own.has_effect_with(runs, limits, std::iter::empty());
-        if matches!(rigid, Some(None)) || stiff.as_mut().is_some_and(is_stiff) {
+        // Stiffness between nodes is known before gradients are, and nearly that of joints: whether a run was resumed must not matter.
+        let (time, limit) = limits;
+        let certain = if matches!(rigid, Known::Of(_)) { CERTAIN * limit } else { limit };
+        let is_stiff = |own: &mut StiffParts| own.has_effect_with(runs, (time, certain), std::iter::empty());
+        if matches!(rigid, Known::Without) || stiff.as_mut().is_some_and(is_stiff) {
             return None;
         }
-        let rigid = RigidMatrix::renewed(rigid, (system, at), redundancy.omitted())?;
+        let rigid = rigid.renewed((system, at), redundancy.omitted())?;
         if let Some(stiff) = stiff {
             let coordinates = rigid.inertias_of_coordinates();
-            if coordinates.len() > 0 && stiff.has_effect_with(runs, limits, coordinates) {
+            if stiff.has_effect_with(runs, limits, coordinates) {
                 return None;
             }
         }
@@ -181,7 +191,7 @@ impl RecoveryMatrix {
     pub(super) fn solve(&mut self, right: &mut [f64]) {
         let count = right.len() - self.zero.len();
         self.redundancy.remove_misfit(&mut right[count..]);
-        if let Some(Some(rigid)) = self.rigid.as_mut().filter(|_| self.is_rigid) {
+        if let (Known::Of(rigid), true) = (&mut self.rigid, self.is_rigid) {
             rigid.solve(right);
             return;
         }

@@ -47,8 +47,8 @@ fn solutions_are_those_of_the_whole_matrix() {
     let mut whole =
         ConsistentInitialConditions::new(&system, &state, &representative, &lissom_solver::KINDS[0]);
     whole.factor(&system, &state, Inertias::All).expect("regular");
-    let mut kept = None;
-    let rigid = RigidMatrix::renewed(&mut kept, (&system, &state.kinematics), &[]).expect("rigid parts");
+    let mut kept = Known::NotYet;
+    let rigid = kept.renewed((&system, &state.kinematics), &[]).expect("rigid parts");
     assert_eq!(rigid.eliminated.len(), 2);
     rigid.factor().expect("independent");
     let right: Vec<f64> = (0..system.layout().size()).map(|row| (7.0 * row as f64).sin()).collect();
@@ -64,8 +64,8 @@ fn solutions_are_those_of_the_whole_matrix() {
 #[test]
 fn a_coordinate_has_the_inertia_of_its_free_parts() {
     let (system, state) = rack();
-    let mut kept = None;
-    let rigid = RigidMatrix::renewed(&mut kept, (&system, &state.kinematics), &[]).expect("rigid parts");
+    let mut kept = Known::NotYet;
+    let rigid = kept.renewed((&system, &state.kinematics), &[]).expect("rigid parts");
     let inertias: Vec<(usize, f64)> = rigid.inertias_of_coordinates().collect();
     let layout = system.layout();
     assert_eq!(inertias[0].0, layout.coordinate_rows[0] as usize);

@@ -27,7 +27,7 @@ class Dynamics(Analysis):
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
         penalty: factor of the augmented term; default 1e-3; a number ≥ 0, or nothing.
-        solver: linear solver; `"sparse"`, `"pivoting"`, or nothing.
+        solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
@@ -54,7 +54,7 @@ class Dynamics(Analysis):
     equilibrated: bool | None = None
     augmented: bool | None = None
     penalty: Number | None = None
-    solver: Literal["sparse", "pivoting"] | None = None
+    solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
@@ -84,7 +84,7 @@ class Statics(Analysis):
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
         penalty: factor of the augmented term; default 1e-3; a number ≥ 0, or nothing.
-        solver: linear solver; `"sparse"`, `"pivoting"`, or nothing.
+        solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
@@ -104,7 +104,7 @@ class Statics(Analysis):
     equilibrated: bool | None = None
     augmented: bool | None = None
     penalty: Number | None = None
-    solver: Literal["sparse", "pivoting"] | None = None
+    solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
@@ -127,7 +127,7 @@ class Path(Analysis):
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
         penalty: factor of the augmented term; default 1e-3; a number ≥ 0, or nothing.
-        solver: linear solver; `"sparse"`, `"pivoting"`, or nothing.
+        solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
@@ -145,7 +145,7 @@ class Path(Analysis):
     equilibrated: bool | None = None
     augmented: bool | None = None
     penalty: Number | None = None
-    solver: Literal["sparse", "pivoting"] | None = None
+    solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
@@ -166,7 +166,7 @@ class Buckling(Analysis):
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
         penalty: factor of the augmented term; default 1e-3; a number ≥ 0, or nothing.
-        solver: linear solver; `"sparse"`, `"pivoting"`, or nothing.
+        solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
@@ -180,7 +180,7 @@ class Buckling(Analysis):
     equilibrated: bool | None = None
     augmented: bool | None = None
     penalty: Number | None = None
-    solver: Literal["sparse", "pivoting"] | None = None
+    solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
@@ -197,7 +197,7 @@ class Modes(Analysis):
         equilibrated: equilibration of rows and columns of the scaled tangent; default `true`; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term; default `true`; `true` or `false`, or nothing.
         penalty: factor of the augmented term; default 1e-3; a number ≥ 0, or nothing.
-        solver: linear solver; `"sparse"`, `"pivoting"`, or nothing.
+        solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
@@ -213,7 +213,7 @@ class Modes(Analysis):
     equilibrated: bool | None = None
     augmented: bool | None = None
     penalty: Number | None = None
-    solver: Literal["sparse", "pivoting"] | None = None
+    solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None

@@ -1,6 +1,7 @@
 //! Studies: comparisons of a family of runs of one model. They return tables; the command line prints, writes and
 //! draws them.
 
+pub mod conditioning;
 pub mod convergence;
 mod members;
 mod observed;

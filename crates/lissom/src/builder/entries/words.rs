@@ -24,6 +24,6 @@ words! {
     Scheme { GeneralizedAlpha = "generalized-alpha", Hht = "hht", RadauIia = "radau-iia", RadauIia5 = "radau-iia-5", RadauIia9 = "radau-iia-9", RadauIia13 = "radau-iia-13", EnergyDecaying = "energy-decaying", BackwardEuler = "backward-euler" }
     Side { Both = "both", Tension = "tension", Compression = "compression" }
     SignedSide { Both = "both", Positive = "positive", Negative = "negative" }
-    Solver { Sparse = "sparse", Pivoting = "pivoting" }
+    Solver { Sparse = "sparse", Pivoting = "pivoting", Strict = "strict" }
     Without { Prediction = "prediction", Secants = "secants", SingleCorrection = "single-correction", Account = "account", BackOff = "back-off", StartStresses = "start-stresses", Parts = "parts" }
 }
