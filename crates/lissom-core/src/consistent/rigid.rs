@@ -168,7 +168,7 @@ impl Places {
 }
 
 /// Constraints and their equations, as they are added.
-struct Equations {
+struct Assembled {
     places: Places,
     constraints: Vec<Placed>,
     equations: Vec<Equation>,
@@ -179,7 +179,7 @@ struct Equations {
     gradient: Vec<f64>,
 }
 
-impl Equations {
+impl Assembled {
     /// Adds a constraint, of which `determines` may determine coordinates; none if a coordinate without inertia is not determined by one
     /// equation.
     fn add(
@@ -214,7 +214,9 @@ impl Equations {
                     known => {
                         through.push((columns.len(), which, 0.0));
                         let others = &self.equations[known].parts;
-                        others.iter().for_each(|&part| _ = index_of(&mut own_parts, part));
+                        for &part in others {
+                            index_of(&mut own_parts, part);
+                        }
                     }
                 }
             }
@@ -271,7 +273,7 @@ impl RigidMatrix {
     /// inertia is not determined by one equation.
     fn new(system: &System, at: &Kinematics, omitted: &[usize]) -> Option<Self> {
         let count = system.layout().coordinate_count();
-        let mut all = Equations {
+        let mut all = Assembled {
             places: Places::of(system, at)?,
             constraints: Vec::new(),
             equations: Vec::new(),
@@ -284,7 +286,7 @@ impl RigidMatrix {
         for (position, constraint) in system.constraints().enumerate() {
             all.add(constraint, (count, at), position < system.joints().len())?;
         }
-        let Equations { places, constraints, equations, groups, kept, zero, gradient } = all;
+        let Assembled { places, constraints, equations, groups, kept, zero, gradient } = all;
         let Places { parts, eliminated, .. } = places;
         if kept == 0 || eliminated.iter().any(|own| own.1 == NONE) {
             return None;

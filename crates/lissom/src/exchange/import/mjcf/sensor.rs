@@ -14,18 +14,15 @@ const CHANGING: [&str; 5] = ["cutoff", "reftype", "refname", "delay", "interval"
 pub(super) fn read(root: &Node, sites: &Sites, robot: &mut Robot) {
     let mut others = Vec::new();
     for node in root.within("sensor") {
-        match quantity(node, sites, robot) {
-            Some(quantity) => {
-                let count = robot.sensors.len() + 1;
-                let name = node.name().map_or_else(|| format!("{}{count}", node.tag()), str::to_owned);
-                robot.sensors.push(Sensor { name, quantity });
-            }
-            None => {
-                let site = node.element.text("site").filter(|site| !sites.contains_key(*site));
-                let missing = site
-                    .map_or_else(String::new, |site| format!(" of the site `{site}`, which is not there"));
-                others.push(format!("{}{missing}", node.tag()));
-            }
+        if let Some(quantity) = quantity(node, sites, robot) {
+            let count = robot.sensors.len() + 1;
+            let name = node.name().map_or_else(|| format!("{}{count}", node.tag()), str::to_owned);
+            robot.sensors.push(Sensor { name, quantity });
+        } else {
+            let site = node.element.text("site").filter(|site| !sites.contains_key(*site));
+            let missing =
+                site.map_or_else(String::new, |site| format!(" of the site `{site}`, which is not there"));
+            others.push(format!("{}{missing}", node.tag()));
         }
     }
     let all = counted(others.into_iter());
