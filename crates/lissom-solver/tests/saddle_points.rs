@@ -36,7 +36,7 @@ fn solves_everything<S: Build>() {
         let pattern = &structure.pattern;
         for kind in KINDS {
             let mut solver = S::build(kind, &structure);
-            assert_eq!(solver.name(), kind.name);
+            assert!(kind.is_strict || solver.name() == kind.name, "{}", solver.name());
             assert!(solver.factor_entries() >= pattern.entries());
             for seed in 0..3 {
                 let values: Vec<S> = model.values(pattern, seed, 1.0);

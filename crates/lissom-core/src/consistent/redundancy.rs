@@ -202,7 +202,7 @@ impl Redundancy {
     }
 
     /// Whether the equation of a multiplier is one of a loop whose equations are dependent at this position, only there or in the whole
-    /// motion: the rank of B, which no pivot of a tangent tells where its digits are lost.
+    /// motion: the rank of B, which a pivot of a tangent does not show where its digits are lost.
     pub(crate) fn is_dependent(&self, system: &System, at: &Kinematics, multiplier: usize) -> bool {
         let has_it = |group: &Group| group.found.multipliers.contains(&multiplier);
         let here = Self::of_rates(system, at, self.length);

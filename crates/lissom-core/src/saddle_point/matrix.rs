@@ -56,6 +56,10 @@ impl<S: SolverOf> Matrices for Matrix<S> {
         self.solver.exchanges_rows()
     }
 
+    fn restore_differences(&mut self, _: &Structure) -> bool {
+        false
+    }
+
     fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
         self.solver = S::solver(kind, structure);
     }

@@ -45,10 +45,8 @@ pub(crate) trait Matrices {
     /// Brings rows and columns to one size.
     fn equilibrate(&mut self, structure: &Structure, equilibration: &mut Equilibration);
 
-    /// Returns to values that are not symmetric if their symmetric part is in use; whether it was. Default: it never is.
-    fn restore_differences(&mut self, _structure: &Structure) -> bool {
-        false
-    }
+    /// Returns to values that are not symmetric if their symmetric part is in use; whether it was.
+    fn restore_differences(&mut self, structure: &Structure) -> bool;
 
     /// Subtracts `by` from the diagonal entry of `unknown`.
     fn omit(&mut self, structure: &Structure, unknown: usize, by: f64);

@@ -97,6 +97,9 @@ fn add_several<S: Scalar>(
     }
 }
 
+/// Unknowns from which on the mean of mirrored values is factored: its iterations converge linearly, so that small models, which cost little
+/// anyway, would lose digits.
+const MANY: usize = 3000;
 /// Difference of mirrored equilibrated values up to which their mean is factored: iterations converge with it.
 const LARGEST_ASYMMETRY: f64 = 0.2;
 
@@ -175,6 +178,9 @@ impl StageTangents {
     fn symmetrise(&mut self, pattern: &Pattern) -> bool {
         self.differences.clear();
         let [FactoredSystem::Real(Factored { values, .. })] = &mut self.systems[..] else { return false };
+        if pattern.size() < MANY {
+            return false;
+        }
         let half = |[below, above]: [usize; 2]| 0.5 * (values[below] - values[above]);
         self.differences.extend(pattern.mirrors().map(|(.., both)| half(both)));
         if !self.differences.iter().all(|half| 2.0 * half.abs() <= LARGEST_ASYMMETRY) {

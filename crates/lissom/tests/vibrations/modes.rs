@@ -579,7 +579,7 @@ fn a_free_part_under_a_load_has_the_modes_of_the_unloaded_one() {
     assert_eq!(frequencies(&report), frequencies(&unloaded));
 }
 
-/// States of a controller decay slower than the motion, and are not what is asked for.
+/// States of a controller decay slower than the motion, and do not count as requested.
 #[test]
 fn decays_of_states_are_found_besides() {
     let states = |k: u32| format!("[states.s{k}]\nderivative = \"-0.0{k}*s{k}\"\nstart = 0\n");
