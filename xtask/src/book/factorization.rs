@@ -5,7 +5,7 @@ use std::ops::Range;
 use lissom::Model;
 use lissom::core::saddle_point::TangentValues;
 use lissom::core::scaling::ScalingChoice;
-use lissom::core::simulation::Simulation;
+use lissom::core::simulation::{NewtonTrial, Simulation};
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, kind};
 
 use super::conditioning::{SCALINGS, simulation};
@@ -94,17 +94,7 @@ fn examine(
     };
     let trial = simulation.try_newton(choice, kind, ITERATIONS).map_err(stopped)?;
     let structure = simulation.system().structure();
-    let mut factored = Factored {
-        relative_pivot: f64::INFINITY,
-        growth: 0.0,
-        coordinate_error: 0.0,
-        multiplier_error: 0.0,
-        backward_error: 0.0,
-        errors_known: true,
-        update: trial.update,
-        residual: trial.residual,
-        violation: trial.violation,
-    };
+    let mut factored = Factored::of_trial(&trial);
     let ranges = [0..layout.coordinate_count(), layout.multiplier_rows()];
     for tangent in &trial.tangents {
         let (pattern, sizes) = (&structure.pattern, &trial.sizes[..]);
@@ -122,9 +112,24 @@ fn examine(
 }
 
 impl Factored {
+    /// Results of Newton's method; tangents are to be added.
+    pub(super) fn of_trial(trial: &NewtonTrial) -> Self {
+        Self {
+            relative_pivot: f64::INFINITY,
+            growth: 0.0,
+            coordinate_error: 0.0,
+            multiplier_error: 0.0,
+            backward_error: 0.0,
+            errors_known: true,
+            update: trial.update,
+            residual: trial.residual,
+            violation: trial.violation,
+        }
+    }
+
     /// Factors a matrix and measures the errors for a problem with known solution. The problem is the same in SI whatever the scaling:
     /// each unknown is its entry of `sizes` times a number of order one.
-    fn add<S: Scalar>(
+    pub(super) fn add<S: Scalar>(
         &mut self,
         solver: &mut dyn LinearSolver<S>,
         (pattern, values): (&Pattern, &[S]),

@@ -2,7 +2,8 @@
 
 use super::fragment::Fragment;
 use super::{
-    BookError, Studio, claims, conditioning, convergence, factorization, roundoff, simulation, work,
+    BookError, Studio, claims, comparison, conditioning, convergence, efficiency, factorization, roundoff,
+    simulation, work,
 };
 
 /// Makes the text between the markers of one name.
@@ -37,6 +38,11 @@ pub(super) const GENERATORS: &[Generator] = &[
     quick("convergence-tip-crank", convergence::tip_crank),
     quick("convergence-components", convergence::components),
     quick("convergence-smooth-start", convergence::smooth_start),
+    quick("convergence-tip-crank-smooth", convergence::tip_crank_smooth),
+    quick("comparison-oscillator", comparison::oscillator),
+    quick("comparison-orders", comparison::orders),
+    quick("comparison-energy", comparison::energy),
+    Generator { name: "efficiency", is_long: true, make: efficiency::table },
     Generator { name: "work-against-error", is_long: true, make: work::table },
     Generator { name: "convergence-tip-crank-long", is_long: true, make: convergence::tip_crank_long },
 ];

@@ -3,8 +3,10 @@
 
 mod check;
 mod claims;
+mod comparison;
 mod conditioning;
 mod convergence;
+mod efficiency;
 mod extended;
 mod factorization;
 mod fragment;
