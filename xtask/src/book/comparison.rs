@@ -1,7 +1,7 @@
 //! The schemes beside each other, as in the third chapter of [Epple 2008]: what they do to an oscillator, their orders, the energy of
 //! flexible models, and models that are hard for all of them.
 
-use lissom::analyses::study::convergence::{Request, study};
+use lissom::analyses::study::convergence::{Request, Row, study};
 use lissom::{Model, Override};
 use lissom_model::output::{LogFigure, Record};
 use nalgebra::{DMatrix, DVector};
@@ -47,6 +47,7 @@ kind = "dynamics"
 end = 1
 step = 1
 energy_check = false
+tolerance = 1e-13
 "#;
 
 /// A bob on a rod of 1 m: no coordinate is a function of another.
@@ -79,6 +80,10 @@ step = 1e-2
 
 /// Step sizes in units of the oscillator's frequency.
 const FREQUENCIES: [f64; 7] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0];
+/// Errors below this are round-off.
+const ROUND_OFF: f64 = 1e-12;
+/// Displacements above this have digits from which a recurrence can be found.
+const SEEN: f64 = 1e-7;
 /// Steps of the oscillator.
 const STEPS: usize = 8;
 
@@ -98,8 +103,10 @@ pub(super) fn oscillator(studio: &Studio) -> Result<Fragment, BookError> {
             if [0.3, 1.0, 10.0, 100.0].contains(&frequency) {
                 row.push(format!("{radius:.3}"));
             }
+            // Not the real root of schemes with three of them.
+            let turns = roots.iter().filter(|root| root.im.abs() > 1e-9 * root.norm());
             let angle =
-                roots.iter().map(|root| root.arg().abs()).filter(|angle| *angle > 0.0).fold(0.0, f64::max);
+                turns.max_by(|a, b| a.norm().total_cmp(&b.norm())).map_or(f64::NAN, |root| root.arg().abs());
             if frequency == 0.3 {
                 period = format!("{:.1e}", frequency / angle - 1.0);
             }
@@ -151,8 +158,10 @@ fn released(scheme: &str, step: f64) -> Result<(Vec<f64>, Vec<f64>), BookError> 
 fn amplification(positions: &[f64]) -> Vec<Complex64> {
     let mut roots = Vec::new();
     for terms in [2, 3] {
-        let windows: Vec<&[f64]> = positions[1..].windows(terms + 1).collect();
         let size = |own: &[f64]| own.iter().fold(f64::MIN_POSITIVE, |most: f64, value| most.max(value.abs()));
+        // The displacement is measured from that of the start, with the round-off of a number of order one.
+        let windows = positions[1..].windows(terms + 1).filter(|own| size(own) > SEEN);
+        let windows: Vec<&[f64]> = windows.collect();
         let matrix =
             DMatrix::from_fn(windows.len(), terms, |i, j| windows[i][terms - 1 - j] / size(windows[i]));
         let right = DVector::from_fn(windows.len(), |i, _| windows[i][terms] / size(windows[i]));
@@ -176,7 +185,7 @@ fn amplification(positions: &[f64]) -> Vec<Complex64> {
 /// Orders of positions, velocities and multipliers.
 pub(super) fn orders(studio: &Studio) -> Result<Fragment, BookError> {
     let model = Model::from_text("pendulum", PENDULUM);
-    let steps = ["2e-2", "1e-2", "5e-3"];
+    let steps = ["1e-1", "5e-2", "2.5e-2"];
     let (mut rows, outputs) = (Vec::new(), ["position.x", "velocity.v1", "pivot.f1"]);
     let mut tables = Vec::new();
     for output in outputs {
@@ -195,7 +204,9 @@ pub(super) fn orders(studio: &Studio) -> Result<Fragment, BookError> {
             let last = table.rows.iter().rfind(|own| own.scheme == scheme);
             let error =
                 last.and_then(|own| own.outcome.as_ref().ok()).map_or_else(String::new, |own| two(*own));
-            let order = last.and_then(|own| own.order).map_or_else(String::new, |own| format!("{own:.1}"));
+            let is_seen = |own: &&Row| own.outcome.as_ref().is_ok_and(|error| *error > ROUND_OFF);
+            let order = last.filter(is_seen).and_then(|own| own.order);
+            let order = order.map_or_else(|| "round-off".to_owned(), |own| format!("{own:.1}"));
             row.extend([error, order]);
         }
         rows.push(row);
