@@ -9,7 +9,7 @@ use super::{BookError, Studio};
 const EXAMPLE: &str = "tip-crank";
 /// Down to the smallest of the source's figure [s].
 const STEPS: [&str; 9] = ["4e-3", "2e-3", "1e-3", "5e-4", "2e-4", "1e-4", "5e-5", "2e-5", "1e-5"];
-/// Of order nine, three decades below the smallest error of the source's figure, whose reference is Radau IIA of two stages at 5 µs.
+/// Reference of order nine, three decades below the smallest error of the source's figure, whose reference is Radau IIA of two stages at 5 µs.
 const REFERENCE: (&str, &str) = ("radau-iia-9", "1e-5");
 /// A drive without a jump of the acceleration at the start.
 const SMOOTH: (&str, &str) = ("joints.drive.rotation", "\"0.12*sin(pi*t/0.2)^6\"");
@@ -19,7 +19,7 @@ pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
     all_schemes(studio, &[("analysis.end", "0.1")], "convergence-tip-crank")
 }
 
-/// The same with a drive that starts smoothly.
+/// All schemes with a drive that starts smoothly.
 pub(super) fn tip_crank_smooth(studio: &Studio) -> Result<Fragment, BookError> {
     all_schemes(studio, &[("analysis.end", "0.1"), SMOOTH], "convergence-tip-crank-smooth")
 }
