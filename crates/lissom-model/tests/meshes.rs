@@ -109,3 +109,17 @@ fn several_materials_of_a_file_are_reported() {
     assert!(warnings(&format!("{CUBES}{sections}")).contains("sections of 2 materials"));
     assert!(!warnings(CUBES).contains("materials"));
 }
+
+#[test]
+fn files_as_large_as_buildings_are_probably_in_millimetres() {
+    let plate = PLATE.replace("2, 1, 0, 0", "2, 1000, 0, 0").replace("3, 1, 1, 0", "3, 1000, 1000, 0");
+    let plate = plate.replace("4, 0, 1, 0", "4, 0, 1000, 0");
+    let warnings = |scale: &str| {
+        let shell = format!(
+            "{scale}\nthickness = 0.01\nmaterial = \"m\"\n[materials.m]\nE = 2e11\nnu = 0.3\ndensity = 7800"
+        );
+        of_shell(&shell, &plate).expect("a good model").warnings.render(false)
+    };
+    assert!(warnings("").contains("is 1.4e3 m large"), "{}", warnings(""));
+    assert!(!warnings("scale = 1e-3").contains("m large"), "{}", warnings("scale = 1e-3"));
+}

@@ -68,8 +68,21 @@ pub(super) fn file<T>(
         let help = format!("check that nothing of the {whole} is missing: `lissom view --initial`");
         context.report(problem.help(help));
     }
+    let scale = reader.number("scale")?.value;
+    let positions = || mesh.positions.iter().map(|own| scale * Vector3::from(*own));
+    let size = positions()
+        .next()
+        .map_or(0.0, |first| positions().map(|own| (own - first).norm()).fold(0.0, f64::max));
+    if !SIZES.contains(&size) {
+        let problem = Problem::warning(node.span, format!("{what} is {size:.1e} m large"));
+        let help = "write `scale = 1e-3` for a file in millimetres, and lengths of the model in m";
+        context.report(problem.help(help));
+    }
     Some((taken, mesh))
 }
+
+/// Usual sizes of parts from files [m].
+const SIZES: std::ops::Range<f64> = 1e-4..100.0;
 
 /// Most elements along one side of a patch.
 const MAX_DIVISIONS: f64 = 2000.0;

@@ -10,7 +10,7 @@ use lissom_motion::Vector3;
 use crate::outputs::entry::{Output, OutputSource};
 use crate::parts::context::Context;
 use crate::reading::mesh_nodes::nodes_at;
-use crate::text::report::{Located, Problem, Span};
+use crate::text::report::{Problem, Span};
 
 /// Gravity above this is that in mm/s² [m/s²].
 const MAX_GRAVITY: f64 = 1000.0;
@@ -26,8 +26,6 @@ const MAX_EXTENT: (f64, f64) = (200.0, 20.0);
 const JOINT_TO_EXTENT: f64 = 5.0;
 /// Distance of a point of an output from its body beyond the body's radius of gyration, by this factor.
 const POINT_TO_GYRATION: f64 = 5.0;
-/// Usual sizes of parts with a mesh [m].
-const MESH_SIZES: std::ops::Range<f64> = 1e-4..500.0;
 /// Moving parts of a contact from which on a scheme for many contacts pays.
 const MANY_PARTS: usize = 8;
 /// Speeds of a drive that are probably in degrees per second.
@@ -48,7 +46,6 @@ pub(super) fn check(context: &Context<'_>, document: &Document, places: &Places)
         samples,
         ropes,
         slack_ropes,
-        large_meshes,
         jams,
     ]
     .into_iter()
@@ -303,25 +300,6 @@ fn ropes(document: &Document, _: &Places) -> Vec<Doubt> {
         (own.name.span, message, "add `stiffness`, E A over the length for a steel rope [N/m]".to_owned())
     };
     document.springs.iter().filter(is_loose).map(doubt).collect()
-}
-
-/// Solids and shells from files that are as large as buildings, and those too small to hold.
-fn large_meshes(document: &Document, _: &Places) -> Vec<Doubt> {
-    let named = document
-        .shells
-        .iter()
-        .map(|own| &own.name)
-        .chain(document.elastic_solids.iter().map(|own| &own.name));
-    let doubt = |name: &Located<String>| {
-        let positions = &document.mesh(&name.value)?.positions;
-        let first = positions.first()?;
-        let size = positions.iter().map(|own| (own - first).norm()).fold(0.0, f64::max);
-        (!MESH_SIZES.contains(&size)).then(|| {
-            let message = format!("the mesh of `{}` is {size:.3e} m large", name.value);
-            (name.span, message, "write lengths in m: `scale = 1e-3` for a file in millimetres".to_owned())
-        })
-    };
-    named.filter_map(doubt).collect()
 }
 
 /// Ropes that are slack where the search for an equilibrium starts, so that they have no stiffness there.

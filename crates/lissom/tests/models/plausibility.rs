@@ -94,21 +94,6 @@ fn numbers_in_units_of_the_trade_are_named() {
     }
 }
 
-#[test]
-fn meshes_as_large_as_buildings_are_named() {
-    let roof = |side: f64| {
-        format!(
-            "lissom = 1\n[materials.steel]\nE = 2e11\nnu = 0.3\ndensity = 7850\n[shells.roof]\nsurface = [\"{side}*u\", \"{side}*v\", \"0\"]\n\
-             divisions = [2, 2]\nthickness = {}\nmaterial = \"steel\"\n[joints.edge]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"roof.u0\"\n\
-             [analysis]\nkind = \"dynamics\"\nend = 1\n",
-            0.01 * side
-        )
-    };
-    assert_eq!(warnings(&roof(2.0)), "");
-    let found = warnings(&roof(2000.0));
-    assert!(found.contains("the mesh of `roof` is 2.828e3 m large"), "{found}");
-}
-
 /// A worm whose wheel has more inertia than it can stop: I₁ + (2 - 1/η) I₂ r² < 0.
 #[test]
 fn a_worm_that_jams_is_named() {
