@@ -38,21 +38,31 @@ pub fn condition_estimate<S: Scalar>(
 
 /// Units in which the rows and columns of the `free` unknowns have one norm without their diagonal [Osborne 1960]; 1 for all others.
 fn balanced_units<S: Scalar>(pattern: &Pattern, values: &[S], free: &[usize]) -> Vec<f64> {
-    let (starts, rows, size) = (pattern.column_starts(), pattern.row_indices(), pattern.size());
+    let size = pattern.size();
     let mut units = vec![1.0; size];
-    let (mut columns_sum, mut rows_sum) = (vec![0.0; size], vec![0.0; size]);
-    for _ in 0..if free.is_empty() { 0 } else { SWEEPS } {
-        columns_sum.fill(0.0);
-        rows_sum.fill(0.0);
-        for column in 0..size {
-            for k in (starts[column]..starts[column + 1]).filter(|&k| rows[k] != column) {
-                let value = modulus(values[k]) * units[column] / units[rows[k]];
-                columns_sum[column] += value;
-                rows_sum[rows[k]] += value;
-            }
+    if free.is_empty() {
+        return units;
+    }
+    let mut is_free = vec![false; size];
+    free.iter().for_each(|&unknown| is_free[unknown] = true);
+    let starts = pattern.column_starts();
+    let positions =
+        (0..size).flat_map(|column| (starts[column]..starts[column + 1]).map(move |k| (column, k)));
+    let rows = pattern.row_indices();
+    let counts = positions.filter(|&(column, k)| rows[k] != column && (is_free[rows[k]] || is_free[column]));
+    let entries: Vec<(usize, usize, f64)> =
+        counts.map(|(column, k)| (rows[k], column, modulus(values[k]))).collect();
+    let (mut of_columns, mut of_rows) = (vec![0.0; size], vec![0.0; size]);
+    for _ in 0..SWEEPS {
+        of_columns.fill(0.0);
+        of_rows.fill(0.0);
+        for &(row, column, value) in &entries {
+            let value = value * units[column] / units[row];
+            of_columns[column] += value;
+            of_rows[row] += value;
         }
         for &unknown in free {
-            let factor = (rows_sum[unknown] / columns_sum[unknown]).sqrt();
+            let factor = (of_rows[unknown] / of_columns[unknown]).sqrt();
             // An unknown that no other equation contains has any unit.
             if factor.is_normal() {
                 units[unknown] *= factor;
