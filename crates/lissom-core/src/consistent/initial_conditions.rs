@@ -80,7 +80,7 @@ impl ConsistentInitialConditions {
             weights: Vec::new(),
             starts: JointStarts::default(),
             factored_at: None,
-            rigid: Known::NotYet,
+            rigid: Known::default(),
         }
     }
 
@@ -92,13 +92,13 @@ impl ConsistentInitialConditions {
     ) -> Result<(), InitialError> {
         let at = &state.kinematics;
         if inertias == Inertias::All
-            && self.factored_at.as_ref().is_some_and(|own| has_constraints_of(own, at))
+            && self.factored_at.as_ref().is_some_and(|factored| has_constraints_of(factored, at))
         {
             return Ok(());
         }
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            self.rigid = Known::NotYet;
+            self.rigid = Known::default();
         }
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
@@ -207,7 +207,7 @@ impl ConsistentInitialConditions {
         let (at, count) = (&state.kinematics, system.layout().coordinate_count());
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            (self.rigid, self.factored_at) = (Known::NotYet, None);
+            (self.rigid, self.factored_at) = (Known::default(), None);
         }
         let rigid = self.rigid.renewed((system, at), self.redundancy.omitted());
         if let Some(rigid) = rigid

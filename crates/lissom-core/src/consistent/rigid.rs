@@ -76,46 +76,49 @@ struct Equation {
     through: Vec<(usize, usize, f64)>,
 }
 
-/// The matrix of a system, as far as it is known.
+/// The matrix of a system for the constraints that are not released, if there is one.
 #[derive(Default)]
-pub(crate) enum Known {
-    /// It has not been needed.
-    #[default]
-    NotYet,
-    /// Parts are not rigid, or constraints nearly dependent at once.
-    Without,
-    /// There is one.
-    Of(Box<RigidMatrix>),
+pub(crate) struct Known {
+    /// By constraint, whether it was released when the matrix was looked for; none before that.
+    released: Option<Vec<bool>>,
+    matrix: Option<Box<RigidMatrix>>,
 }
 
 impl Known {
-    /// The matrix, which is made where there is none or other constraints are released than before, with the gradients of these
-    /// positions; none if there is none for the system.
+    /// Whether there is a matrix.
+    pub(crate) fn is_some(&self) -> bool {
+        self.matrix.is_some()
+    }
+
+    /// Whether there is no matrix for the constraints of these positions.
+    pub(crate) fn has_none(&self, system: &System, at: &Kinematics) -> bool {
+        self.matrix.is_none() && self.is_of(system, at)
+    }
+
+    fn is_of(&self, system: &System, at: &Kinematics) -> bool {
+        let mut now = system.constraints().map(|constraint| constraint.is_released(at));
+        self.released.as_ref().is_some_and(|released| released.iter().all(|known| now.next() == Some(*known)))
+    }
+
+    /// The matrix with the gradients of these positions, made anew where other constraints are released than before; none if parts are
+    /// not rigid. Nothing but positions and constraints decides, so that a resumed run is one that was not interrupted.
     pub(crate) fn renewed(
         &mut self,
         (system, at): (&System, &Kinematics),
         omitted: &[usize],
     ) -> Option<&mut RigidMatrix> {
-        let is_same = |known: &RigidMatrix| {
-            let mut both = known.constraints.iter().zip(system.constraints());
-            both.all(|(own, constraint)| own.is_released == constraint.is_released(at))
-        };
-        let is_known = match self {
-            Self::NotYet => false,
-            Self::Without => true,
-            Self::Of(known) => is_same(known),
-        };
-        if !is_known {
-            // A factor that fails at once would fail at every record.
-            let regular = RigidMatrix::new(system, at, omitted).and_then(|mut new| {
-                new.gather(system, at).and_then(|()| new.factor())?;
-                Some(Self::Of(Box::new(new)))
-            });
-            *self = regular.unwrap_or(Self::Without);
+        if !self.is_of(system, at) {
+            self.matrix = RigidMatrix::new(system, at, omitted).map(Box::new);
+            self.released = Some(system.constraints().map(|constraint| constraint.is_released(at)).collect());
         }
-        let Self::Of(matrix) = self else { return None };
+        let matrix = self.matrix.as_deref_mut()?;
         matrix.gather(system, at)?;
         Some(matrix)
+    }
+
+    /// The matrix that was renewed last.
+    pub(crate) fn matrix(&mut self) -> Option<&mut RigidMatrix> {
+        self.matrix.as_deref_mut()
     }
 }
 
@@ -191,7 +194,7 @@ impl Assembled {
         let (size, first) = (constraint.size(), count + constraint.first_multiplier());
         let is_released = constraint.is_released(at);
         let (mut columns, mut through, mut free) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut own_parts, begin) = (Vec::new(), self.equations.len());
+        let (mut joined, begin) = (Vec::new(), self.equations.len());
         if is_released {
             self.zero.extend(first..first + constraint.equations());
             self.constraints.push(Placed { is_released, columns, equations: begin..begin });
@@ -215,23 +218,25 @@ impl Assembled {
                         through.push((columns.len(), which, 0.0));
                         let others = &self.equations[known].parts;
                         for &part in others {
-                            index_of(&mut own_parts, part);
+                            index_of(&mut joined, part);
                         }
                     }
                 }
             }
-            let index = if part == NONE { NONE } else { index_of(&mut own_parts, part) };
+            let index = if part == NONE { NONE } else { index_of(&mut joined, part) };
             columns.extend((0..port.width()).map(|component| (index, component)));
         }
         let slope = |e: usize, local: usize| self.gradient[e * size + local].abs();
         let largest = |local: usize| (0..constraint.equations()).map(|e| slope(e, local)).fold(0.0, f64::max);
         let mut group = Vec::new();
         for e in 0..constraint.equations() {
-            let mut own =
+            let mut determined =
                 free.iter().filter(|&&(local, _)| slope(e, local) > round_off::MATRIX_ENTRY * largest(local));
-            let determines = own.next();
+            let determines = determined.next();
             let eliminated = &mut self.places.eliminated;
-            if own.next().is_some() || determines.is_some_and(|own| eliminated[own.1].1 != NONE) {
+            if determined.next().is_some()
+                || determines.is_some_and(|&(_, which)| eliminated[which].1 != NONE)
+            {
                 return None;
             }
             let is_omitted = self.zero.contains(&(first + e));
@@ -249,14 +254,14 @@ impl Assembled {
             if is_omitted || determines.is_some() && !through.is_empty() {
                 return None;
             }
-            let blocks = vec![Vector6::zeros(); own_parts.len()];
+            let blocks = vec![Vector6::zeros(); joined.len()];
             self.equations.push(Equation {
                 number: e,
                 row: first + e,
                 index,
-                determines: determines.map(|own| own.0),
+                determines: determines.map(|&(local, _)| local),
                 slope: 1.0,
-                parts: own_parts.clone(),
+                parts: joined.clone(),
                 weighted: blocks.clone(),
                 blocks,
                 through: through.clone(),
@@ -288,7 +293,7 @@ impl RigidMatrix {
         }
         let Assembled { places, constraints, equations, groups, kept, zero, gradient } = all;
         let Places { parts, eliminated, .. } = places;
-        if kept == 0 || eliminated.iter().any(|own| own.1 == NONE) {
+        if kept == 0 || eliminated.iter().any(|&(_, equation)| equation == NONE) {
             return None;
         }
         let mut on_part: Vec<Vec<[usize; 2]>> = vec![Vec::new(); parts.len()];
@@ -296,7 +301,7 @@ impl RigidMatrix {
         {
             equation.parts.iter().enumerate().for_each(|(k, &part)| on_part[part].push([number, k]));
         }
-        let index = |own: &[usize; 2]| equations[own[0]].index;
+        let index = |[equation, _]: &[usize; 2]| equations[*equation].index;
         let cliques: Vec<Vec<usize>> = on_part.iter().map(|all| all.iter().map(index).collect()).collect();
         let pattern = Arc::new(Pattern::from_cliques(kept, cliques.iter().map(Vec::as_slice)));
         let structure = Structure::new(Arc::clone(&pattern), groups).ok()?;
@@ -333,31 +338,34 @@ impl RigidMatrix {
     /// Evaluates gradients at these positions; none if a coordinate acts in two equations of its joint.
     fn gather(&mut self, system: &System, at: &Kinematics) -> Option<()> {
         let Self { parts, constraints, equations, eliminated, gradient, .. } = self;
-        for (constraint, placed) in system.constraints().zip(constraints).filter(|(_, own)| !own.is_released)
+        for (constraint, placed) in
+            system.constraints().zip(constraints).filter(|(_, placed)| !placed.is_released)
         {
             evaluate(constraint, at, gradient);
             let size = placed.columns.len();
-            let (known, own) = equations.split_at_mut(placed.equations.start);
-            for equation in &mut own[..placed.equations.len()] {
+            let (before, after) = equations.split_at_mut(placed.equations.start);
+            for equation in &mut after[..placed.equations.len()] {
                 let row = &gradient[equation.number * size..][..size];
                 equation.blocks.fill(Vector6::zeros());
                 for (value, &(index, component)) in
-                    row.iter().zip(&placed.columns).filter(|own| own.1.0 != NONE)
+                    row.iter().zip(&placed.columns).filter(|(_, (index, _))| *index != NONE)
                 {
                     equation.blocks[index][component] += value;
                 }
                 for (local, which, factor) in &mut equation.through {
-                    let other = &known[eliminated[*which].1];
+                    let other = &before[eliminated[*which].1];
                     *factor = row[*local] / other.slope;
                     for (part, block) in other.parts.iter().zip(&other.blocks) {
-                        let index = equation.parts.iter().position(|own| own == part)?;
+                        let index = equation.parts.iter().position(|known| known == part)?;
                         equation.blocks[index] -= *factor * block;
                     }
                 }
                 if let Some(local) = equation.determines {
                     equation.slope = row[local];
-                    let mut others =
-                        gradient.chunks_exact(size).enumerate().filter(|own| own.0 != equation.number);
+                    let mut others = gradient
+                        .chunks_exact(size)
+                        .enumerate()
+                        .filter(|(number, _)| *number != equation.number);
                     if others
                         .any(|(_, row)| row[local].abs() > round_off::MATRIX_ENTRY * equation.slope.abs())
                     {
@@ -395,25 +403,38 @@ impl RigidMatrix {
         }
         // Multipliers of eliminated equations follow from the rows of their coordinates, which then contain what the equation requires.
         for &(row, equation) in &*eliminated {
-            let own = &equations[equation];
-            let force = right[row] / own.slope;
-            right[row] = std::mem::replace(&mut right[own.row], force);
-            own.parts.iter().zip(&own.blocks).for_each(|(&part, block)| motions[part] -= force * block);
+            let equation = &equations[equation];
+            let force = right[row] / equation.slope;
+            right[row] = std::mem::replace(&mut right[equation.row], force);
+            equation
+                .parts
+                .iter()
+                .zip(&equation.blocks)
+                .for_each(|(&part, block)| motions[part] -= force * block);
         }
-        for own in equations.iter().filter(|own| own.index != NONE) {
-            let through = own.through.iter().map(|&(_, which, factor)| factor * right[eliminated[which].0]);
-            let pushed = own.parts.iter().zip(&own.weighted).map(|(&part, own)| own.dot(&motions[part]));
-            self.right[own.index] = through.chain(pushed).sum::<f64>() - right[own.row];
+        for equation in equations.iter().filter(|equation| equation.index != NONE) {
+            let through =
+                equation.through.iter().map(|&(_, which, factor)| factor * right[eliminated[which].0]);
+            let pushed = equation
+                .parts
+                .iter()
+                .zip(&equation.weighted)
+                .map(|(&part, weighted)| weighted.dot(&motions[part]));
+            self.right[equation.index] = through.chain(pushed).sum::<f64>() - right[equation.row];
         }
         self.solver.solve(&mut self.right);
         self.zero.iter().for_each(|&multiplier| right[multiplier] = 0.0);
-        for own in equations.iter().filter(|own| own.index != NONE) {
-            let force = self.right[own.index];
-            right[own.row] = force;
-            for &(_, which, factor) in &own.through {
+        for equation in equations.iter().filter(|equation| equation.index != NONE) {
+            let force = self.right[equation.index];
+            right[equation.row] = force;
+            for &(_, which, factor) in &equation.through {
                 right[equations[eliminated[which].1].row] -= factor * force;
             }
-            own.parts.iter().zip(&own.blocks).for_each(|(&part, block)| motions[part] -= force * block);
+            equation
+                .parts
+                .iter()
+                .zip(&equation.blocks)
+                .for_each(|(&part, block)| motions[part] -= force * block);
         }
         for (motion, Part { rows, inverse }) in motions.iter_mut().zip(&*parts) {
             *motion = *inverse * *motion;
@@ -422,9 +443,10 @@ impl RigidMatrix {
             }
         }
         for &(row, equation) in &*eliminated {
-            let own = &equations[equation];
-            let moved = own.parts.iter().zip(&own.blocks).map(|(&part, block)| block.dot(&motions[part]));
-            right[row] = (right[row] - moved.sum::<f64>()) / own.slope;
+            let equation = &equations[equation];
+            let moved =
+                equation.parts.iter().zip(&equation.blocks).map(|(&part, block)| block.dot(&motions[part]));
+            right[row] = (right[row] - moved.sum::<f64>()) / equation.slope;
         }
     }
 }
@@ -438,7 +460,7 @@ fn evaluate(constraint: &dyn Constraint, at: &Kinematics, out: &mut Vec<f64>) {
 
 /// Index of a part in a list, to which it is added if it is missing.
 fn index_of(parts: &mut Vec<usize>, part: usize) -> usize {
-    parts.iter().position(|own| *own == part).unwrap_or_else(|| {
+    parts.iter().position(|known| *known == part).unwrap_or_else(|| {
         parts.push(part);
         parts.len() - 1
     })
@@ -460,8 +482,8 @@ fn inverse_of(rows: &[u32; 6], entry: &impl Fn(usize, usize) -> f64) -> Option<M
 /// Whether no element's inertia depends on its configuration. Signals do not depend on accelerations between samples.
 pub(crate) fn has_constant_inertias(system: &System, at: &Kinematics) -> bool {
     let mut changing = Vec::new();
-    for own in system.elements_with(|own| own.inertia.filter(|_| !own.is_body_inertia)) {
-        own.mass(at, &mut changing);
+    for inertia in system.elements_with(|element| element.inertia.filter(|_| !element.is_body_inertia)) {
+        inertia.mass(at, &mut changing);
     }
     changing.is_empty()
 }
@@ -472,8 +494,8 @@ fn inertias<'s>(system: &'s System, at: &Kinematics) -> impl Fn(usize, usize) ->
     let mut is_state = vec![false; system.layout().coordinate_count()];
     system.layout().states().for_each(|(row, ..)| is_state[row] = true);
     move |row: usize, column: usize| {
-        let own = if row == column && is_state[row] { 1.0 } else { 0.0 };
-        own + pattern.position(row, column).map_or(0.0, |position| mass[position])
+        let of_state = if row == column && is_state[row] { 1.0 } else { 0.0 };
+        of_state + pattern.position(row, column).map_or(0.0, |position| mass[position])
     }
 }
 

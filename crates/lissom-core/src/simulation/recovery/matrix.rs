@@ -12,7 +12,7 @@ use lissom_solver::{Pattern, SolverKind};
 
 use super::stiff_parts::StiffParts;
 use crate::consistent::redundancy::Redundancy;
-use crate::consistent::rigid::{self, Known, WELL_CONDITIONED};
+use crate::consistent::rigid::{Known, WELL_CONDITIONED};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, Layout, MotionChange};
@@ -87,11 +87,7 @@ impl RecoveryMatrix {
         Self {
             saddle,
             redundancy,
-            rigid: if rigid::has_constant_inertias(system, &state.kinematics) {
-                Known::NotYet
-            } else {
-                Known::Without
-            },
+            rigid: Known::default(),
             is_rigid: false,
             stiff: system.has_stiff_elements().then(|| StiffParts::new((system, &state.kinematics))),
             scratch: None,
@@ -123,9 +119,7 @@ impl RecoveryMatrix {
         system.begin_step(at, &mut self.starts);
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
-            if matches!(self.rigid, Known::Of(_)) {
-                self.rigid = Known::NotYet;
-            }
+            self.rigid = Known::default();
         }
         let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
         if let Some(stiff) = &mut self.stiff {
@@ -145,9 +139,9 @@ impl RecoveryMatrix {
         let Self { rigid, redundancy, stiff, between_motions: runs, .. } = self;
         // Stiffness between nodes is known before gradients are, and nearly that of joints: whether a run was resumed must not matter.
         let (time, limit) = limits;
-        let certain = if matches!(rigid, Known::Of(_)) { CERTAIN * limit } else { limit };
+        let certain = if rigid.is_some() { CERTAIN * limit } else { limit };
         let is_stiff = |own: &mut StiffParts| own.has_effect_with(runs, (time, certain), std::iter::empty());
-        if matches!(rigid, Known::Without) || stiff.as_mut().is_some_and(is_stiff) {
+        if rigid.has_none(system, at) || stiff.as_mut().is_some_and(is_stiff) {
             return None;
         }
         let rigid = rigid.renewed((system, at), redundancy.omitted())?;
@@ -191,7 +185,7 @@ impl RecoveryMatrix {
     pub(super) fn solve(&mut self, right: &mut [f64]) {
         let count = right.len() - self.zero.len();
         self.redundancy.remove_misfit(&mut right[count..]);
-        if let (Known::Of(rigid), true) = (&mut self.rigid, self.is_rigid) {
+        if let Some(rigid) = self.rigid.matrix().filter(|_| self.is_rigid) {
             rigid.solve(right);
             return;
         }

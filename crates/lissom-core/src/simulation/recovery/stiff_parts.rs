@@ -10,7 +10,7 @@ pub(super) struct StiffParts {
     /// Entries of the diagonal, by row.
     diagonal: Vec<usize>,
     /// Inertias by row: constant ones, and those of coordinates at the last positions, infinite before; inertias in use.
-    own_inertias: Vec<f64>,
+    known_inertias: Vec<f64>,
     inertias: Vec<f64>,
     /// Whether τ² K is not negligible at these positions.
     pub(super) has_effect: bool,
@@ -24,9 +24,9 @@ impl StiffParts {
         let rows = 0..system.layout().coordinate_count();
         let mass = system.linearization_at(at).mass;
         let inertia = |row| pattern.position(row, row).map_or(0.0, |position| mass[position]);
-        let own_inertias = rows.clone().map(inertia).map(|own| if own > 0.0 { own } else { f64::INFINITY });
+        let known_inertias = rows.clone().map(inertia).map(|own| if own > 0.0 { own } else { f64::INFINITY });
         Self {
-            own_inertias: own_inertias.collect(),
+            known_inertias: known_inertias.collect(),
             inertias: Vec::new(),
             derivatives: system.empty_linearization(),
             diagonal: rows.filter_map(|row| pattern.position(row, row)).collect(),
@@ -71,8 +71,8 @@ impl StiffParts {
         limit: (f64, f64),
         coordinates: impl Iterator<Item = (usize, f64)>,
     ) -> bool {
-        coordinates.for_each(|(row, inertia)| self.own_inertias[row] = inertia);
-        self.inertias.clone_from(&self.own_inertias);
+        coordinates.for_each(|(row, inertia)| self.known_inertias[row] = inertia);
+        self.inertias.clone_from(&self.known_inertias);
         self.find_effect(between_motions, limit)
     }
 

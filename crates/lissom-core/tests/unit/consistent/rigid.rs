@@ -47,7 +47,7 @@ fn solutions_are_those_of_the_whole_matrix() {
     let mut whole =
         ConsistentInitialConditions::new(&system, &state, &representative, &lissom_solver::KINDS[0]);
     whole.factor(&system, &state, Inertias::All).expect("regular");
-    let mut kept = Known::NotYet;
+    let mut kept = Known::default();
     let rigid = kept.renewed((&system, &state.kinematics), &[]).expect("rigid parts");
     assert_eq!(rigid.eliminated.len(), 2);
     rigid.factor().expect("independent");
@@ -64,7 +64,7 @@ fn solutions_are_those_of_the_whole_matrix() {
 #[test]
 fn a_coordinate_has_the_inertia_of_its_free_parts() {
     let (system, state) = rack();
-    let mut kept = Known::NotYet;
+    let mut kept = Known::default();
     let rigid = kept.renewed((&system, &state.kinematics), &[]).expect("rigid parts");
     let inertias: Vec<(usize, f64)> = rigid.inertias_of_coordinates().collect();
     let layout = system.layout();
