@@ -111,7 +111,7 @@ pub(super) fn oscillator(studio: &Studio) -> Result<Fragment, BookError> {
                 period = format!("{:.1e}", frequency / angle - 1.0);
             }
             if frequency == 10.0 {
-                fastest = two(velocities.iter().fold(0.0, |most: f64, own| most.max(own.abs())));
+                fastest = two(velocities.iter().fold(0.0, |most: f64, velocity| most.max(velocity.abs())));
             }
         }
         row.extend([period, fastest]);
@@ -119,7 +119,7 @@ pub(super) fn oscillator(studio: &Studio) -> Result<Fragment, BookError> {
         curves.push(((*scheme).to_owned(), curve));
     }
     let mut fragment = Fragment::default();
-    let radii = ["0.3", "1", "10", "100"].map(|own| format!("radius, hω = {own}"));
+    let radii = ["0.3", "1", "10", "100"].map(|frequency| format!("radius, hω = {frequency}"));
     let mut heading = vec!["scheme"];
     heading.extend(radii.iter().map(String::as_str));
     heading.extend(["period error, hω = 0.3", "largest velocity, hω = 10"]);
@@ -149,18 +149,19 @@ fn released(scheme: &str, step: f64) -> Result<(Vec<f64>, Vec<f64>), BookError> 
         });
         ends.map(|(_, value)| *value).collect::<Vec<f64>>()
     };
-    let positions = column("displacement").iter().map(|own| own + 1.0).collect();
+    let positions = column("displacement").iter().map(|displacement| displacement + 1.0).collect();
     Ok((positions, column("velocity")))
 }
 
-/// Eigenvalues of a step, from a recurrence of two or three terms that the displacements satisfy. The first step may have a start of its
-/// own.
+/// Eigenvalues of a step, from a recurrence of two or three terms that the displacements satisfy. The first step may differ from
+/// the others.
 fn amplification(positions: &[f64]) -> Vec<Complex64> {
     let mut roots = Vec::new();
     for terms in [2, 3] {
-        let size = |own: &[f64]| own.iter().fold(f64::MIN_POSITIVE, |most: f64, value| most.max(value.abs()));
+        let size =
+            |window: &[f64]| window.iter().fold(f64::MIN_POSITIVE, |most: f64, value| most.max(value.abs()));
         // The displacement is measured from that of the start, with the round-off of a number of order one.
-        let windows = positions[1..].windows(terms + 1).filter(|own| size(own) > SEEN);
+        let windows = positions[1..].windows(terms + 1).filter(|window| size(window) > SEEN);
         let windows: Vec<&[f64]> = windows.collect();
         let matrix =
             DMatrix::from_fn(windows.len(), terms, |i, j| windows[i][terms - 1 - j] / size(windows[i]));
@@ -201,12 +202,12 @@ pub(super) fn orders(studio: &Studio) -> Result<Fragment, BookError> {
     for scheme in SCHEMES {
         let mut row = vec![scheme.to_owned()];
         for table in &tables {
-            let last = table.rows.iter().rfind(|own| own.scheme == scheme);
+            let last = table.rows.iter().rfind(|row| row.scheme == scheme);
             let error =
-                last.and_then(|own| own.outcome.as_ref().ok()).map_or_else(String::new, |own| two(*own));
-            let is_seen = |own: &&Row| own.outcome.as_ref().is_ok_and(|error| *error > ROUND_OFF);
-            let order = last.filter(is_seen).and_then(|own| own.order);
-            let order = order.map_or_else(|| "round-off".to_owned(), |own| format!("{own:.1}"));
+                last.and_then(|row| row.outcome.as_ref().ok()).map_or_else(String::new, |error| two(*error));
+            let is_seen = |row: &&Row| row.outcome.as_ref().is_ok_and(|error| *error > ROUND_OFF);
+            let order = last.filter(is_seen).and_then(|row| row.order);
+            let order = order.map_or_else(|| "round-off".to_owned(), |order| format!("{order:.1}"));
             row.extend([error, order]);
         }
         rows.push(row);
@@ -242,8 +243,8 @@ pub(super) fn energy(studio: &Studio) -> Result<Fragment, BookError> {
                 Ok(record) => {
                     let energy = record.column("energy", "total").unwrap_or_default();
                     let first = energy.first().copied().unwrap_or(f64::NAN);
-                    let most = energy.iter().fold(f64::NEG_INFINITY, |most, own| most.max(own - first));
-                    let last = energy.last().map_or(f64::NAN, |own| own - first);
+                    let most = energy.iter().fold(f64::NEG_INFINITY, |most, energy| most.max(energy - first));
+                    let last = energy.last().map_or(f64::NAN, |energy| energy - first);
                     format!("{last:+.1e} (at most {most:+.0e})")
                 }
                 Err(error) => first_words(&error.to_string()),
@@ -261,7 +262,7 @@ pub(super) fn energy(studio: &Studio) -> Result<Fragment, BookError> {
     }
     let mut fragment = Fragment::default();
     let mut heading = vec!["scheme", "energy change [J], h = 10 ms", "h = 1 ms"];
-    heading.extend(HARD.iter().map(|own| own.0));
+    heading.extend(HARD.iter().map(|(name, _)| *name));
     fragment.table(&heading, &rows);
     Ok(fragment)
 }

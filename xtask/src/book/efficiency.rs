@@ -139,20 +139,20 @@ pub(super) fn table(studio: &Studio) -> Result<Fragment, BookError> {
     ];
     let rows: Vec<Vec<String>> = compared(studio)?
         .iter()
-        .map(|own| {
-            let [ours, other] = own.seconds;
+        .map(|compared| {
+            let [ours, other] = compared.seconds;
             vec![
-                own.family.to_owned(),
-                own.scheme.to_owned(),
-                own.unknowns.to_string(),
-                own.entries[0].to_string(),
-                own.entries[1].to_string(),
+                compared.family.to_owned(),
+                compared.scheme.to_owned(),
+                compared.unknowns.to_string(),
+                compared.entries[0].to_string(),
+                compared.entries[1].to_string(),
                 two(1e3 * ours),
                 two(1e3 * other),
                 two(other / ours),
-                two(own.growth),
-                one(own.backward_error[0]),
-                one(own.backward_error[1]),
+                two(compared.growth),
+                one(compared.backward_error[0]),
+                one(compared.backward_error[1]),
             ]
         })
         .collect();

@@ -153,17 +153,23 @@ impl Import {
             let said = match self.read(&file, &out) {
                 Ok(Imported { robot, options, model, .. }) => {
                     opened += 1;
-                    if self.out.is_some() && !out.exists() {
+                    let is_kept = self.out.is_some() && out.exists();
+                    if self.out.is_some() && !is_kept {
                         files::create_folder(folder)
                             .and_then(|()| files::write(&out, model.as_bytes()))
                             .map_err(|error| Failure::new(Exit::Failed, &error))?;
                     }
                     let left_out = omissions(&robot, options);
                     let links = robot.links.len();
-                    if left_out.is_empty() {
-                        format!("opens: {links} links")
+                    let kept = if is_kept {
+                        format!("; not written: `{}` already exists", out.display())
                     } else {
-                        format!("opens: {links} links, without {}", left_out.join("; "))
+                        String::new()
+                    };
+                    if left_out.is_empty() {
+                        format!("opens: {links} links{kept}")
+                    } else {
+                        format!("opens: {links} links, without {}{kept}", left_out.join("; "))
                     }
                 }
                 Err(failure) => {

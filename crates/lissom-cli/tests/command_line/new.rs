@@ -164,6 +164,8 @@ fn a_folder_of_descriptions_is_a_table() {
     assert_eq!(written.code, 2);
     let model = fs::read_to_string(folder.path().join("models/site.toml")).unwrap();
     assert!(model.contains("push = 0\n") && model.contains("[loads.push]"), "{model}");
+    let again = lissom(&["import", "robots", "--out", "models"], folder.path());
+    assert!(again.output.contains("not written: `models/arm.toml` already exists"), "{}", again.output);
 }
 
 /// Frames of tools and elements of simulators do not stand in the way, and a thing without joints is free.

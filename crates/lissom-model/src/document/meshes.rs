@@ -41,6 +41,9 @@ pub(super) fn one_of<'k>(
     }
 }
 
+/// Usual sizes of parts from files [m].
+const SIZES: std::ops::Range<f64> = 1e-4..100.0;
+
 /// The mesh of the file of an entry, and what `take` makes of it with the set that `group` names. Reports what of the file was not read.
 pub(super) fn file<T>(
     reader: &Reader<'_, '_>,
@@ -69,10 +72,10 @@ pub(super) fn file<T>(
         context.report(problem.help(help));
     }
     let scale = reader.number("scale")?.value;
-    let positions = || mesh.positions.iter().map(|own| scale * Vector3::from(*own));
+    let positions = || mesh.positions.iter().map(|position| scale * Vector3::from(*position));
     let size = positions()
         .next()
-        .map_or(0.0, |first| positions().map(|own| (own - first).norm()).fold(0.0, f64::max));
+        .map_or(0.0, |first| positions().map(|position| (position - first).norm()).fold(0.0, f64::max));
     if !SIZES.contains(&size) {
         let problem = Problem::warning(node.span, format!("{what} is {size:.1e} m large"));
         let help = "write `scale = 1e-3` for a file in millimetres, and lengths of the model in m";
@@ -80,9 +83,6 @@ pub(super) fn file<T>(
     }
     Some((taken, mesh))
 }
-
-/// Usual sizes of parts from files [m].
-const SIZES: std::ops::Range<f64> = 1e-4..100.0;
 
 /// Most elements along one side of a patch.
 const MAX_DIVISIONS: f64 = 2000.0;

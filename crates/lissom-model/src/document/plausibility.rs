@@ -304,17 +304,19 @@ fn ropes(document: &Document, _: &Places) -> Vec<Doubt> {
 
 /// Ropes that are slack where the search for an equilibrium starts, so that they have no stiffness there.
 fn slack_ropes(document: &Document, _: &Places) -> Vec<Doubt> {
-    let doubt = |own: &Component| {
-        let points: Option<Vec<Vector3>> = own.attachment.nodes.iter().map(|node| node.at).collect();
+    let doubt = |rope: &Component| {
+        // The way over sheaves with a radius is longer than that between their centres.
+        let points: Option<Vec<Vector3>> =
+            rope.attachment.nodes.iter().map(|node| node.at.filter(|_| node.sheave.is_none())).collect();
         let way: f64 = points?.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-        let length = own.parameters.function("length").ok()?.value(document.analysis.start);
-        (own.kind.value == "rope" && length > way && document.starts_in_equilibrium()).then(|| {
+        let length = rope.parameters.function("length").ok()?.value(document.analysis.start);
+        (rope.kind.value == "rope" && length > way && document.starts_in_equilibrium()).then(|| {
             let message = format!(
                 "rope `{}` of {length:.3} m is slack at the start, where its points are {way:.3} m apart: the search for an equilibrium \
                  finds no resistance there",
-                own.name.value
+                rope.name.value
             );
-            (own.name.span, message, "write positions at which the rope is tight".to_owned())
+            (rope.name.span, message, "write positions at which the rope is tight".to_owned())
         })
     };
     document.springs.iter().filter_map(doubt).collect()
@@ -329,12 +331,12 @@ fn jams(document: &Document, _: &Places) -> Vec<Doubt> {
         let (NodeReference::Ground, NodeReference::Body(body)) = (&base.node.value, &tip.node.value) else {
             return None;
         };
-        let body = document.bodies.iter().find(|own| own.name.value == *body)?;
+        let body = document.bodies.iter().find(|candidate| candidate.name.value == *body)?;
         let axis = joint.attachment.axes.first()?.value.try_normalize(0.0)?;
         let arm = (body.position + body.axes * body.center_of_mass - tip.at?).cross(&axis);
-        let own = body.axes.transpose() * axis;
+        let in_body = body.axes.transpose() * axis;
         (joint.kind.value == "revolute")
-            .then(|| own.dot(&(body.inertia * own)) + body.mass * arm.norm_squared())
+            .then(|| in_body.dot(&(body.inertia * in_body)) + body.mass * arm.norm_squared())
     };
     let doubt = |gear: &Component| {
         let efficiency = gear.parameters.number("efficiency").ok().filter(|_| gear.kind.value == "gear")?;

@@ -184,12 +184,12 @@ fn check_inertia(name: &str, system: &System, state: &State) {
         coordinate.value += 0.1;
         (coordinate.rate, coordinate.acceleration) = (0.2, 0.3);
     }
-    let mut own = Vec::new();
-    for element in system.elements_with(|own| own.inertia.filter(|_| !own.is_body_inertia)) {
-        element.mass(&moved, &mut own);
+    let mut matrices = Vec::new();
+    for inertia in system.elements_with(|element| element.inertia.filter(|_| !element.is_body_inertia)) {
+        inertia.mass(&moved, &mut matrices);
     }
     let [first, then] = [&state.kinematics, &moved].map(|at| system.linearization_at(at).mass);
-    assert!(!own.is_empty() || first == then, "{name}: its inertia depends on the motion");
+    assert!(!matrices.is_empty() || first == then, "{name}: its inertia depends on the motion");
 }
 
 #[test]

@@ -117,18 +117,18 @@ fn read_one(entry: &UnitEntry) -> Result<(ReadUnit, Option<UnitEquations>), Box<
     let missing: Vec<_> = description
         .variables
         .iter()
-        .filter(|own| {
-            own.causality == "input"
-                && own.variable.is_some()
-                && (mode == UnitMode::CoSimulation || own.is_continuous)
-                && !entry.inputs.iter().any(|(given, _)| given.value == own.name)
+        .filter(|variable| {
+            variable.causality == "input"
+                && variable.variable.is_some()
+                && (mode == UnitMode::CoSimulation || variable.is_continuous)
+                && !entry.inputs.iter().any(|(given, _)| given.value == variable.name)
         })
         .collect();
     if !missing.is_empty() {
-        let names: Vec<String> = missing.iter().map(|own| format!("`{}`", own.name)).collect();
+        let names: Vec<String> = missing.iter().map(|variable| format!("`{}`", variable.name)).collect();
         let lines = missing
             .iter()
-            .map(|own| format!("\"{}\" = {}", own.name, own.start.as_deref().unwrap_or("0")))
+            .map(|variable| format!("\"{}\" = {}", variable.name, variable.start.as_deref().unwrap_or("0")))
             .collect::<Vec<_>>();
         let (noun, verb) = if names.len() == 1 { ("input", "is") } else { ("inputs", "are") };
         let message =

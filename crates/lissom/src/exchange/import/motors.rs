@@ -118,13 +118,13 @@ pub(super) fn write_motors(text: &mut String, robot: &Robot, placed: &[Placed]) 
     text.push_str("\n# Motors: an input keeps its value until a program or an event sets it.\n[inputs]\n");
     let (mut names, mut taken) = (Vec::new(), BTreeSet::new());
     for motor in &robot.motors {
-        let own = motor.name.as_ref().map(|name| name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
+        let given = motor.name.as_ref().map(|name| name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
         // Expressions know joints and inputs by one name.
-        let own = own.filter(|name| {
+        let given = given.filter(|name| {
             name.starts_with(|c: char| c.is_ascii_alphabetic())
                 && placed.iter().all(|joint| joint.own != *name)
         });
-        let mut name = own.unwrap_or_else(|| format!("{}_motor", placed[motor.joint].own));
+        let mut name = given.unwrap_or_else(|| format!("{}_motor", placed[motor.joint].own));
         while !taken.insert(name.clone()) {
             name.push('_');
         }
