@@ -44,7 +44,9 @@ fn balanced_units<S: Scalar>(pattern: &Pattern, values: &[S], free: &[usize]) ->
         return units;
     }
     let mut is_free = vec![false; size];
-    free.iter().for_each(|&unknown| is_free[unknown] = true);
+    for &unknown in free {
+        is_free[unknown] = true;
+    }
     let starts = pattern.column_starts();
     let positions =
         (0..size).flat_map(|column| (starts[column]..starts[column + 1]).map(move |k| (column, k)));

@@ -130,8 +130,8 @@ impl Import {
     /// A table of all descriptions in a folder: which open, what is omitted, and why others do not.
     fn folder(&self) -> Result<Exit, Failure> {
         let is_description = |path: &PathBuf| {
-            let ending = path.extension().map(|own| own.to_string_lossy().to_lowercase());
-            ending.is_some_and(|own| ENDINGS.contains(&own.as_str()))
+            let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+            ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
         };
         let described = files::entries(&self.file).filter(is_description);
         let mut names: Vec<String> =
@@ -145,7 +145,7 @@ impl Import {
             )));
         }
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or_default();
-        let mut opened = 0;
+        let (mut opened, mut unwritten) = (0, 0);
         for name in &names {
             let file = self.file.join(name);
             let folder = self.out.as_deref().unwrap_or(Path::new(""));
@@ -154,6 +154,7 @@ impl Import {
                 Ok(Imported { robot, options, model, .. }) => {
                     opened += 1;
                     let is_kept = self.out.is_some() && out.exists();
+                    unwritten += usize::from(is_kept);
                     if self.out.is_some() && !is_kept {
                         files::create_folder(folder)
                             .and_then(|()| files::write(&out, model.as_bytes()))
@@ -187,7 +188,7 @@ impl Import {
             terminal::print(&format!("{name:width$}  {said}\n"));
         }
         terminal::print(&format!("{opened} of {} descriptions open\n", names.len()));
-        Ok(if opened == names.len() { Exit::Done } else { Exit::BadModel })
+        Ok(if opened == names.len() && unwritten == 0 { Exit::Done } else { Exit::BadModel })
     }
 
     fn single(&self) -> Result<Exit, Failure> {

@@ -23,7 +23,7 @@ Examples:
   lissom study conditioning examples/pendulum.toml --steps 1e-2 --vary point_masses.bob.mass=1,1e2,1e4
   lissom study conditioning examples/tip-crank.toml --steps 1e-3,1e-4 --set analysis.end=0.01
 
-Condition numbers are estimated in the 1-norm; first-order states count in units of their usual magnitude. Below each series are the \
+Condition numbers are estimated in the 1-norm; first-order states count in units that balance their rows and columns. Below each series are the \
 exponents of the step size, or of the varied value if there is one step size, between its first and its last value. The table goes to a \
 CSV file (columns step_size, the varied path, none, unit, physical, equilibrated), the plot beside it.
 Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
