@@ -29,20 +29,42 @@ pub(super) struct Numeric<S> {
     /// By step, the sum of the magnitudes of the terms of the diagonal so far.
     terms: Vec<f64>,
     /// One for each part.
+    results: Vec<PartResult<S>>,
+    /// One for each thread.
     benches: Vec<Bench<S>>,
     /// By step, the entry on the diagonal.
     diagonal: Vec<u32>,
 }
 
-/// Storage of a part.
-struct Bench<S> {
+/// What a part hands to the top.
+struct PartResult<S> {
+    /// The contribution of its root; none if it has no parent.
+    contribution: Vec<S>,
+    outcome: Result<(Monitor, f64), FactorError>,
+}
+
+/// Storage of a thread, in which it factorises one part after the other.
+pub(super) struct Bench<S> {
     stacks: [Vec<S>; 2],
     square: SquareWork<S>,
     small: SmallFront<S>,
     /// `L21 D` of the present front: for symmetric matrices only.
     scaled: Vec<S>,
     front_terms: Vec<f64>,
-    outcome: Result<(Monitor, f64), FactorError>,
+}
+
+impl<S: Kernels> Bench<S> {
+    fn new(symbolic: &Symbolic) -> Self {
+        let most = |of: fn(&Part) -> usize| symbolic.parts.iter().map(of).max().unwrap_or(0);
+        let zeros = |length| vec![S::zero(); length];
+        Bench {
+            stacks: [zeros(most(|part| part.stack_lengths[0])), zeros(most(|part| part.stack_lengths[1]))],
+            square: SquareWork::new(most(|part| part.largest_pivots)),
+            small: SmallFront::new(),
+            scaled: zeros(if symbolic.is_symmetric { most(|part| part.largest_panel) } else { 0 }),
+            front_terms: vec![0.0; super::fronts::padded(most(|part| part.largest_boundary))],
+        }
+    }
 }
 
 /// The numbers of some parts, in order.
@@ -51,7 +73,7 @@ pub(super) struct Share<'a, S> {
     factors: &'a mut [S],
     pivots: &'a mut [S],
     terms: &'a mut [f64],
-    benches: &'a mut [Bench<S>],
+    results: &'a mut [PartResult<S>],
 }
 
 impl<'a, S> Share<'a, S> {
@@ -63,15 +85,15 @@ impl<'a, S> Share<'a, S> {
         let (factors, other_factors) = self.factors.split_at_mut(factors);
         let (pivots, other_pivots) = self.pivots.split_at_mut(steps.min(self.pivots.len()));
         let (terms, other_terms) = self.terms.split_at_mut(steps);
-        let (benches, other_benches) = self.benches.split_at_mut(count);
+        let (results, other_results) = self.results.split_at_mut(count);
         (
-            Share { parts, factors, pivots, terms, benches },
+            Share { parts, factors, pivots, terms, results },
             Share {
                 parts: other_parts,
                 factors: other_factors,
                 pivots: other_pivots,
                 terms: other_terms,
-                benches: other_benches,
+                results: other_results,
             },
         )
     }
@@ -84,33 +106,38 @@ impl<S: Kernels> Numeric<S> {
         };
         let steps = symbolic.unknowns.len();
         let of_symmetric = |length| vec![S::zero(); if symbolic.is_symmetric { length } else { 0 }];
-        let bench = |part: &Part| Bench {
-            stacks: part.stack_lengths.map(|length| vec![S::zero(); length]),
-            square: SquareWork::new(part.largest_pivots),
-            small: SmallFront::new(),
-            scaled: of_symmetric(part.largest_panel),
-            front_terms: vec![0.0; super::fronts::padded(part.largest_boundary)],
+        let result = |part: &Part| PartResult {
+            contribution: vec![S::zero(); symbolic.fronts_of(part).last().map_or(0, Front::passed_up)],
             outcome: Ok((Monitor::new(), 0.0)),
         };
         Numeric {
             factors: vec![S::zero(); symbolic.factor_length],
             pivots: of_symmetric(steps),
             terms: vec![0.0; steps],
-            benches: symbolic.parts.iter().map(bench).collect(),
+            results: symbolic.parts.iter().map(result).collect(),
+            benches: vec![Bench::new(symbolic)],
             diagonal: symbolic.unknowns.iter().map(on_diagonal).collect(),
         }
     }
 
-    /// The subtrees, and the entries on the diagonal.
-    pub(super) fn subtrees<'a>(&'a mut self, symbolic: &'a Symbolic) -> (Share<'a, S>, &'a [u32]) {
+    /// Storage for this many threads.
+    pub(super) fn set_threads(&mut self, symbolic: &Symbolic, threads: usize) {
+        self.benches.resize_with(threads.max(1), || Bench::new(symbolic));
+    }
+
+    /// The subtrees, the entries on the diagonal, and the storage of every thread.
+    pub(super) fn subtrees<'a>(
+        &'a mut self,
+        symbolic: &'a Symbolic,
+    ) -> (Share<'a, S>, &'a [u32], &'a mut [Bench<S>]) {
         let all = Share {
             parts: &symbolic.parts,
             factors: &mut self.factors,
             pivots: &mut self.pivots,
             terms: &mut self.terms,
-            benches: &mut self.benches,
+            results: &mut self.results,
         };
-        (all.split(symbolic.parts.len() - 1).0, &self.diagonal)
+        (all.split(symbolic.parts.len() - 1).0, &self.diagonal, &mut self.benches)
     }
 
     /// Factorises the top, after all subtrees; returns the monitor and the largest magnitude in U.
@@ -122,14 +149,14 @@ impl<S: Kernels> Numeric<S> {
     ) -> Result<(Monitor, f64), FactorError> {
         let (top, subtrees) = symbolic.parts.split_last().expect("there always is a top");
         let (terms_below, terms) = self.terms.split_at_mut(top.steps.start);
-        let (below, benches) = self.benches.split_at_mut(subtrees.len());
+        let (below, of_top) = self.results.split_at_mut(subtrees.len());
         begin_terms(terms, &self.diagonal[top.steps.clone()], values);
         let (mut monitor, mut largest) = (Monitor::new(), 0.0);
-        for (part, bench) in subtrees.iter().zip(&*below) {
+        for (part, result) in subtrees.iter().zip(&*below) {
             for (&step, &term) in part.outside.iter().zip(&terms_below[part.places.clone()]) {
                 terms[step as usize - top.steps.start] += term;
             }
-            let (of_part, largest_of_part) = bench.outcome?;
+            let (of_part, largest_of_part) = result.outcome?;
             monitor.join(&of_part);
             largest = f64::max(largest, largest_of_part);
         }
@@ -138,7 +165,8 @@ impl<S: Kernels> Numeric<S> {
             factors: &mut self.factors[top.factors.clone()],
             pivots: if symbolic.is_symmetric { &mut self.pivots[top.steps.clone()] } else { &mut [] },
             terms,
-            bench: &mut benches[0],
+            bench: &mut self.benches[0],
+            passed_up: &mut of_top[0].contribution,
             below,
         };
         let (of_top, largest_of_top) = S::factor_part(processor, FactorPart { symbolic, values, work })?;
@@ -155,17 +183,23 @@ fn begin_terms<S: Scalar>(terms: &mut [f64], diagonal: &[u32], values: &[S]) {
 }
 
 impl<S: Kernels> Share<'_, S> {
-    /// Factorises subtrees, one after the other; the benches store the outcomes.
-    pub(super) fn factor(self, processor: pulp::Arch, symbolic: &Symbolic, values: &[S], diagonal: &[u32]) {
+    /// Factorises subtrees, one after the other, in the storage of a thread.
+    pub(super) fn factor(
+        self,
+        processor: pulp::Arch,
+        symbolic: &Symbolic,
+        (values, diagonal): (&[S], &[u32]),
+        bench: &mut Bench<S>,
+    ) {
         let mut rest = self;
         while let Some(part) = rest.parts.first() {
             let own;
             (own, rest) = rest.split(1);
-            let Share { factors, pivots, terms, benches, .. } = own;
+            let Share { factors, pivots, terms, results, .. } = own;
+            let PartResult { contribution, outcome } = &mut results[0];
             begin_terms(terms, &diagonal[part.steps.clone()], values);
-            let work = Work { part, factors, pivots, terms, bench: &mut benches[0], below: &[] };
-            let outcome = S::factor_part(processor, FactorPart { symbolic, values, work });
-            benches[0].outcome = outcome;
+            let work = Work { part, factors, pivots, terms, bench, passed_up: contribution, below: &[] };
+            *outcome = S::factor_part(processor, FactorPart { symbolic, values, work });
         }
     }
 }
@@ -204,7 +238,9 @@ struct Work<'a, S> {
     pivots: &'a mut [S],
     terms: &'a mut [f64],
     bench: &'a mut Bench<S>,
-    below: &'a [Bench<S>],
+    /// Contribution of the root to the top.
+    passed_up: &'a mut [S],
+    below: &'a [PartResult<S>],
 }
 
 impl<S: Scalar> Work<'_, S> {
@@ -252,6 +288,7 @@ impl<S: Scalar> Work<'_, S> {
         let pieces = &mut self.factors[front.factors - self.part.factors.start..];
         let Bench { stacks: [even, odd], small, .. } = &mut *self.bench;
         let (own, others) = if front.stack == 0 { (even, &*odd) } else { (odd, &*even) };
+        let own = if front.passes_up { &mut *self.passed_up } else { &mut own[..] };
         let (pivots, stride) = (front.pivots, front.small_stride());
         let matrix = &mut small.matrix.0[..];
         matrix[..(pivots + front.boundary) * stride].fill(S::zero());
@@ -260,7 +297,7 @@ impl<S: Scalar> Work<'_, S> {
             matrix[target as usize] = values[source as usize];
         }
         for child in &symbolic.children[front.children.clone()] {
-            let stack = self.below.get(child.part).map_or(others, |other| &other.stacks[1 - front.stack]);
+            let stack = self.below.get(child.part).map_or(others, |other| &other.contribution);
             let of_child = &stack[child.contribution.clone()];
             let to_pivots = &symbolic.runs[child.to_pivots.clone()];
             let to_boundary = &symbolic.runs[child.to_boundary.clone()];
@@ -303,8 +340,9 @@ impl<S: Scalar> Work<'_, S> {
         let (lower, upper) = panels.split_at_mut(front.panel_length());
         let stride = front.square_stride();
         for child in &symbolic.children[front.children.clone()] {
-            let stacks = self.below.get(child.part).map_or(&self.bench.stacks, |other| &other.stacks);
-            let contribution = &stacks[1 - front.stack][child.contribution.clone()];
+            let own = &self.bench.stacks[1 - front.stack];
+            let stack = self.below.get(child.part).map_or(own, |other| &other.contribution);
+            let contribution = &stack[child.contribution.clone()];
             let pivot_runs = &symbolic.runs[child.to_pivots.clone()];
             let boundary_runs = &symbolic.runs[child.to_boundary.clone()];
             add_columns(lower, front.panel_stride(), contribution, child, boundary_runs, pivot_runs);
@@ -373,6 +411,7 @@ impl<S: Scalar> Work<'_, S> {
 
         let (even, odd) = bench.stacks.split_at_mut(1);
         let (own, others) = if front.stack == 0 { (&mut even[0], &odd[0]) } else { (&mut odd[0], &even[0]) };
+        let own = if front.passes_up { &mut *self.passed_up } else { &mut own[..] };
         let contribution = &mut own[front.contribution_range()];
         let strip = if symbolic.is_symmetric { STRIP } else { boundary };
         for begin in (0..boundary).step_by(strip) {
@@ -385,7 +424,7 @@ impl<S: Scalar> Work<'_, S> {
         }
         for child in &symbolic.children[front.children.clone()] {
             let runs = &symbolic.runs[child.to_boundary.clone()];
-            let stack = self.below.get(child.part).map_or(others, |other| &other.stacks[1 - front.stack]);
+            let stack = self.below.get(child.part).map_or(others, |other| &other.contribution);
             let of_child = &stack[child.contribution.clone()];
             if symbolic.is_symmetric {
                 add_lower(contribution, stride, of_child, child, runs);

@@ -10,9 +10,9 @@
 //! a square of `b` columns in one of two stacks: the contributions of a front's children are in one stack, its own is
 //! in the other.
 //!
-//! Fronts are divided into independent parts, subtrees first and the top last. Each has its own stacks and, after its own steps,
-//! positions for its contributions to unknowns outside, those on the boundary of its root. These contributions are added to the
-//! top after all subtrees.
+//! Fronts are divided into independent parts, subtrees first and the top last. Those of a thread use its stacks one after the other;
+//! what the root of a subtree contributes to the top is stored apart. After its own steps, each part has positions for its
+//! contributions to unknowns outside, those on the boundary of its root. These contributions are added to the top after all subtrees.
 
 use std::ops::Range;
 
@@ -54,6 +54,8 @@ pub(super) struct Front {
     /// The stack of its contribution, and the position in it.
     pub(super) stack: usize,
     pub(super) contribution: usize,
+    /// Whether its contribution is to the top, from the root of a subtree: it is then stored apart.
+    pub(super) passes_up: bool,
     /// First position of its boundary, if the positions are consecutive.
     pub(super) span: Option<usize>,
     /// Whether it is eliminated by [`super::small`].
@@ -91,6 +93,10 @@ impl Front {
     }
     pub(super) fn contribution_range(&self) -> Range<usize> {
         self.contribution..self.contribution + self.boundary * self.panel_stride()
+    }
+    /// Length of its contribution to the top.
+    pub(super) fn passed_up(&self) -> usize {
+        if self.passes_up { self.contribution_range().len() } else { 0 }
     }
 }
 
@@ -322,6 +328,7 @@ impl Symbolic {
             children: self.children.len()..self.children.len(),
             stack: 0,
             contribution: 0,
+            passes_up: false,
             span: None,
             small: self.has_small && pivots <= MAX_SMALL && boundary <= MAX_SMALL,
         };
@@ -373,6 +380,11 @@ impl Symbolic {
         });
     }
 
+    /// Fronts of a part.
+    pub(super) fn fronts_of(&self, part: &Part) -> &[Front] {
+        &self.fronts[part.fronts.clone()]
+    }
+
     fn part_of(&self, front: usize) -> usize {
         self.parts.partition_point(|part| part.fronts.end <= front)
     }
@@ -396,11 +408,15 @@ impl Symbolic {
                 for (slot, &child) in list.zip(children[index]) {
                     self.children[slot].contribution = self.fronts[child].contribution_range();
                 }
-                // Those of other parts are in stacks of their own.
+                // Those of other parts are stored apart.
                 if let Some(&lowest) = children[index].iter().find(|&&child| child >= part.fronts.start) {
                     tops[self.fronts[lowest].stack] = self.fronts[lowest].contribution;
                 }
                 let front = &mut self.fronts[index];
+                front.passes_up = parents[index].is_some_and(|parent| parent >= part.fronts.end);
+                if front.passes_up {
+                    continue;
+                }
                 front.contribution = tops[front.stack];
                 tops[front.stack] = front.contribution_range().end;
                 part.stack_lengths[front.stack] = part.stack_lengths[front.stack].max(tops[front.stack]);

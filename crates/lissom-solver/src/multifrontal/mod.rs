@@ -93,8 +93,8 @@ impl<S: Kernels> Multifrontal<S> {
         let largest = if crews.is_empty() {
             let largest = S::largest(*processor, Largest { values });
             if largest.is_some() {
-                let (share, diagonal) = numeric.subtrees(symbolic);
-                share.factor(*processor, symbolic, values, diagonal);
+                let (share, diagonal, benches) = numeric.subtrees(symbolic);
+                share.factor(*processor, symbolic, (values, diagonal), &mut benches[0]);
             }
             largest
         } else {
@@ -172,6 +172,7 @@ impl<S: Kernels> LinearSolver<S> for Multifrontal<S> {
     fn set_threads(&mut self, threads: usize) {
         let (_, subtrees) = self.symbolic.parts.split_last().expect("there always is a top");
         self.crews = threads::crews(subtrees, threads);
+        self.numeric.set_threads(&self.symbolic, self.crews.len());
     }
 }
 

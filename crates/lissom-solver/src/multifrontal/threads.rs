@@ -48,19 +48,20 @@ pub(super) fn factor<S: Kernels>(
     values: &[S],
     crews: &[usize],
 ) -> Option<f64> {
-    let (mut rest, diagonal) = numeric.subtrees(symbolic);
+    let (mut rest, diagonal, benches) = numeric.subtrees(symbolic);
     let mut largest = vec![Some(0.0_f64); crews.len()];
     let portion = values.len().div_ceil(crews.len()).max(1);
     let request = interrupt::request();
     crate::in_parallel(|scope| {
         let mut portions = values.chunks(portion);
-        for (index, (&crew, largest)) in crews.iter().zip(&mut largest).enumerate() {
+        let benches = benches.iter_mut();
+        for (index, ((&crew, largest), bench)) in crews.iter().zip(&mut largest).zip(benches).enumerate() {
             let share;
             (share, rest) = rest.split(crew);
             let portion = portions.next().unwrap_or_default();
             let work = move || {
                 *largest = S::largest(processor, Largest { values: portion });
-                share.factor(processor, symbolic, values, diagonal);
+                share.factor(processor, symbolic, (values, diagonal), bench);
             };
             if index + 1 < crews.len() {
                 let request = Arc::clone(&request);
