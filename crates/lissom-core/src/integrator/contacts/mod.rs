@@ -15,6 +15,7 @@
 mod coupled_pattern;
 mod free_path;
 pub(crate) mod impact;
+mod known_gaps;
 mod near_points;
 mod touch_point;
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lissom_motion::{Motion, Vector3, Vector6};
 
 use super::free_path::{Encounter, FreePath};
+use super::known_gaps::KnownGaps;
 use super::touch_point::{Phase, Place, StepOfPoint, TouchPoint};
 use crate::contact::forms::Meeting;
 use crate::contact::set::{ContactSet, NearPair, NearPairs, PlacedMeeting};
@@ -34,8 +35,8 @@ const DIVIDED: [f64; 2] = [0.02, 0.98];
 pub(crate) struct NearPoints {
     set: Arc<ContactSet>,
     pairs: NearPairs,
-    /// The points of every two parts that have been near.
-    meetings: Vec<Vec<PlacedMeeting>>,
+    /// The points of every two parts that have been near, and what is known of their gaps.
+    meetings: Vec<(Vec<PlacedMeeting>, KnownGaps)>,
     /// Their indices, and those of the pairs of the last search.
     known: BTreeMap<NearPair, usize>,
     last: Vec<(NearPair, usize)>,
@@ -140,7 +141,9 @@ impl NearPoints {
             let index = match before.peek() {
                 Some((own, index)) if *own == pair => *index,
                 _ => *known.entry(pair).or_insert_with(|| {
-                    meetings.push(placed(set, pair));
+                    let points = placed(set, pair);
+                    let gaps = KnownGaps::new(points.len());
+                    meetings.push((points, gaps));
                     meetings.len() - 1
                 }),
             };
@@ -149,7 +152,7 @@ impl NearPoints {
         std::mem::swap(last, next);
         let mut touches = touches.iter().peekable();
         for &(NearPair { rule, parts }, index) in last.iter() {
-            let own = &meetings[index];
+            let (meetings, gaps) = &mut meetings[index];
             let [base, tip] = parts.map(|part| part as usize);
             let nodes = [base, tip].map(|part| set.parts[part].node);
             let compliance = compliances[base] + compliances[tip];
@@ -158,12 +161,22 @@ impl NearPoints {
                 StepOfPoint { size, radius, planned: self.planned, compliance, is_first: self.is_first };
             let frames = nodes.map(|node| start.nodes[node].frame);
             let reach = travel[base] + travel[tip];
+            gaps.follow(frames, [base, tip].map(|part| set.parts[part].radius));
             let first = points.len();
-            for (point, (meeting, law)) in own.iter().enumerate() {
+            for (point, (meeting, law)) in meetings.iter().enumerate() {
+                if gaps.exceeds(point, reach) {
+                    continue;
+                }
                 let key = TouchKey { rule, parts, point: point as u32 };
                 while touches.next_if(|touch| touch.key.rank() < key.rank()).is_some() {}
                 let before = touches.peek().copied().filter(|touch| touch.key == key && touch.continues);
-                let Some(mut place) = Place::of(meeting, frames, reach) else { continue };
+                let mut place = match Place::within(meeting, frames, reach) {
+                    Ok(place) => place,
+                    Err(gap) => {
+                        gaps.insert(point, gap);
+                        continue;
+                    }
+                };
                 if before.is_none() && is_round(meeting) && place.gap > 0.0 {
                     let path = FreePath::of(nodes, (start, self.gravity), size);
                     let length = path.length(meeting, &place);
@@ -175,7 +188,8 @@ impl NearPoints {
                 points.push(TouchPoint::at((key, meeting, law), nodes, (start, step), (place, before)));
             }
             if set.parts[base].solids.len() * set.parts[tip].solids.len() > 1 {
-                let hidden = hidden(&points[first..], own, (start, nodes), [size, radius], self.is_first);
+                let hidden =
+                    hidden(&points[first..], meetings, (start, nodes), [size, radius], self.is_first);
                 let mut all = hidden.into_iter();
                 let mut index = 0;
                 points.retain(|_| {
@@ -224,7 +238,7 @@ impl NearPoints {
         let TouchKey { rule, parts, point: index } = point.key;
         let pair = NearPair { rule, parts };
         let found = self.last.binary_search_by_key(&pair.rank(), |(own, _)| own.rank()).ok()?;
-        Some(&self.meetings[self.last[found].1][index as usize].0)
+        Some(&self.meetings[self.last[found].1].0[index as usize].0)
     }
 
     /// A point of the step at another configuration.

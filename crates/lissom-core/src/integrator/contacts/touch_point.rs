@@ -81,16 +81,21 @@ pub(crate) struct Place {
 impl Place {
     /// The point of a meeting of two parts whose nodes have these frames; none if its gap is larger than `reach` [m].
     pub(crate) fn of(meeting: &Meeting, frames: [Motion; 2], reach: f64) -> Option<Self> {
+        Self::within(meeting, frames, reach).ok()
+    }
+
+    /// As [`of`](Self::of); the gap if it is larger than `reach` [m].
+    pub(crate) fn within(meeting: &Meeting, frames: [Motion; 2], reach: f64) -> Result<Self, f64> {
         let (base, tip) = placed(meeting, frames);
         // Of curves the value alone costs as much.
         let gap = meeting.pair.gap(&tip.position, &tip.rotation.matrix());
         if gap.value > reach {
-            return None;
+            return Err(gap.value);
         }
         let normal = base.rotation.apply(&gap.normal);
         let point = base.transform_point(&gap.point);
         let arms = meeting.sides.map(|side| point - frames[side].position);
-        Some(Self { axes: axes_of(&normal), point, arms, gap: gap.value, deepest: meeting.pair.deepest() })
+        Ok(Self { axes: axes_of(&normal), point, arms, gap: gap.value, deepest: meeting.pair.deepest() })
     }
 
     /// Normal in inertial axes towards the second of both parts.
