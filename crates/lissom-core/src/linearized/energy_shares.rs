@@ -56,32 +56,41 @@ impl LinearModel<'_> {
         shares
     }
 
-    /// Effective mass of a mode of unit modal mass: the square of its participation in a rigid motion of the model along and
+    /// Effective masses of modes of unit modal mass: the square of the participation in a rigid motion of the model along and
     /// about each axis of space. The sum over all modes of a model is that of [`masses`](Self::masses), minus the mass fixed
     /// to the ground.
-    pub fn effective_masses(&self, mode: &Mode) -> EffectiveMasses {
-        let centre = self.centre();
-        let mut participation = [Complex64::default(); 6];
-        for (k, sum) in participation.iter_mut().enumerate() {
+    pub fn effective_masses(&self, modes: &[Mode]) -> Vec<EffectiveMasses> {
+        let momenta = self.rigid_momenta();
+        let participation = |mode: &Mode, momenta: &[f64]| {
+            let products = mode.shape.iter().zip(momenta).map(|(shape, momentum)| shape.conj() * *momentum);
+            products.sum::<Complex64>().norm_sqr()
+        };
+        modes.iter().map(|mode| std::array::from_fn(|k| participation(mode, &momenta[k]))).collect()
+    }
+
+    /// Momenta of all coordinates in the six rigid motions of unit speed about the centre of mass.
+    fn rigid_momenta(&self) -> [Vec<f64>; 6] {
+        let (centre, layout) = (self.centre(), self.system.layout());
+        let mut momenta = [(); 6].map(|()| vec![0.0; layout.coordinate_count()]);
+        for (k, all) in momenta.iter_mut().enumerate() {
             for inertia in self.system.inertias() {
-                let rows = self.system.layout().rows_of_node(inertia.node());
+                let rows = layout.rows_of_node(inertia.node());
                 let momentum = inertia.mass() * self.rigid_twist(inertia.node(), k, &centre);
                 for (&row, value) in rows.iter().zip(momentum.iter()).filter(|(row, _)| **row != LOCKED) {
-                    *sum += mode.shape[row as usize].conj() * *value;
+                    all[row as usize] += value;
                 }
             }
         }
         self.system.masses(&self.at, &mut |mass| {
-            for (k, sum) in participation.iter_mut().enumerate() {
-                let rigid = self.rigid_rates(mass, k, &centre);
-                mass.times(&rigid, |row, momentum| {
+            for (k, all) in momenta.iter_mut().enumerate() {
+                mass.times(&self.rigid_rates(mass, k, &centre), |row, momentum| {
                     if mass.rows[row] != LOCKED {
-                        *sum += mode.shape[mass.rows[row] as usize].conj() * momentum;
+                        all[mass.rows[row] as usize] += momentum;
                     }
                 });
             }
         });
-        participation.map(|value| value.norm_sqr())
+        momenta
     }
 
     /// Mass [kg], three times, and moments of inertia about the axes of space through the centre of mass [kg m²].

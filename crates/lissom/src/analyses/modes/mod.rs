@@ -394,7 +394,7 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
         shapes: found.modes.iter().map(|mode| model.shape(mode)).collect(),
         shares: found.modes.iter().map(|mode| model.kinetic_shares(mode)).collect(),
         strain_shares: found.modes.iter().map(|mode| model.strain_shares(mode)).collect(),
-        effective_masses: found.modes.iter().map(|mode| model.effective_masses(mode)).collect(),
+        effective_masses: model.effective_masses(&found.modes),
         masses: model.masses(),
         moved: found.modes.iter().take(DRAWN).map(|mode| model.moved_along(mode, FAR)).collect(),
         modes: found.modes,
