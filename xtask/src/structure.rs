@@ -413,7 +413,7 @@ mod tests {
         ["lissom-mechanics", "lissom-flexible", "lissom-contact", "lissom-system", "lissom-core"];
 
     /// Lines of the sources of all crates. It is raised by a commit that does nothing else, with a row of docs/decisions/growth.md.
-    const MAX_LINES: usize = 171_400;
+    const MAX_LINES: usize = 172_240;
 
     /// Public modules at the top of the facade.
     const MAX_PUBLIC_MODULES: usize = 12;
