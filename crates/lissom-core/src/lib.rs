@@ -36,6 +36,7 @@ pub mod saddle_point;
 pub mod scaling;
 pub mod settings;
 pub mod simulation;
+mod spin;
 
 pub use energy_balance::EnergyBalance;
 

@@ -22,6 +22,7 @@ use crate::kinematics::step_stages::STAGES;
 use crate::kinematics::{CoordinateMotion, GROUND, Kinematics, Layout, MotionChange, Quantity};
 use crate::node_motion::{IncrementKind, Known, Nodes, StageTable};
 use crate::schemes::{Combination, Parametrization, Scheme, Stage, Tableau, Weights};
+use crate::spin::{Departure, Spins};
 use crate::system::{Blend, Linearization, State, System};
 
 pub use crate::system::settings::{DEFAULT_PENALTY, ScaleBy, ScalingChoice};
@@ -236,6 +237,14 @@ impl Scaled {
                 }
             }
         }
+        out.spins.begin(&state.kinematics);
+        for spin in out.spins.iter() {
+            let curvature = spin.start_curvature(&state.kinematics.nodes[spin.node()]);
+            spin.rows()
+                .iter()
+                .zip(curvature.iter())
+                .for_each(|(&row, own)| out.acceleration[row] = square * own);
+        }
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&state.kinematics.coordinates) {
             out.velocity[row as usize] = self.h * coordinate.rate;
             out.acceleration[row as usize] = square * coordinate.acceleration;
@@ -300,6 +309,19 @@ impl Scaled {
         let own = &increments.all[increments.stage];
         let table = self.stage_table(scheme, stage);
         unit.nodes.update_nodes(increments.stage, &table, &start.kinematics, increments.all, (out, changes));
+        for spin in unit.spins.iter() {
+            let combined = |combination: &Combination, unit_of_time: f64| {
+                spin.by_row(|row| unit.combine(combination, increments.all, row) / unit_of_time)
+            };
+            let departure = Departure {
+                place: spin.by_row(|row| own[row]),
+                rate: combined(&stage.velocity, self.h),
+                curvature: combined(&stage.acceleration, square),
+            };
+            let (node, from) = (spin.node(), &start.kinematics.nodes[spin.node()]);
+            let (motion, change) = spin.depart(from, table.ahead, &departure);
+            (out.nodes[node], changes[node.index()]) = (motion, MotionChange::of(&change));
+        }
         for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
             let row = row as usize;
             let from = &start.kinematics.coordinates[coordinate];
@@ -432,6 +454,8 @@ pub struct UnitStepState {
     known_velocity: Vec<f64>,
     known_acceleration: Vec<f64>,
     nodes: Nodes,
+    /// Nodes whose increments are in axes that do not spin.
+    pub(crate) spins: Spins,
 }
 
 impl UnitStepState {
@@ -445,6 +469,7 @@ impl UnitStepState {
             known_velocity: zeros.clone(),
             known_acceleration: zeros,
             nodes: Nodes::new(layout, scheme.stages.len()),
+            spins: Spins::new(layout, scheme),
         }
     }
 

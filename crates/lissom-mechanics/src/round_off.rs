@@ -49,6 +49,8 @@ pub const EQUILIBRIUM: f64 = 1e-9;
 /// Last corrections of a step that round-off prevents from reaching the tolerance: their effect on the energy is checked by the
 /// energy balance.
 pub const STEP: f64 = 1e-9;
+/// Places, directions and inertias that are one, to the digits of a text: of a place relative to 1 m and to its distance from the origin.
+pub const COINCIDENT: f64 = 1e-9;
 /// A pivot of constraints relative to the squares it is made of: an equation below it repeats others.
 pub const RANK: f64 = 1e-9;
 /// Forces and entries of gradients, relative to the largest, and residuals relative to their terms: they are computed from solutions.

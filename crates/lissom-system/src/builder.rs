@@ -463,7 +463,7 @@ impl Builder {
         if !feedback.is_empty() {
             batches.push(Arc::new(feedback.clone()));
         }
-        let system = System {
+        let mut system = System {
             layout,
             batches,
             joint_lanes: JointLanes {
@@ -486,6 +486,7 @@ impl Builder {
             given_velocities: self.given_velocities,
             functions: self.functions,
         };
+        system.layout.rotors = system.find_rotors(&state.kinematics);
         Ok((system, state))
     }
 

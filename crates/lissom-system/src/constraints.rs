@@ -351,7 +351,7 @@ impl System {
                                 tangents[node].through(&mut row[column..column + 6]);
                             }
                         }
-                        Chart::RelativeToDrift(start) if is_of_velocities => {
+                        Chart::RelativeToDrift(start, _) if is_of_velocities => {
                             // δV = δψ̂' + ad_V δψ̂.
                             let drift = lie_bracket_matrix(&start[node].twist);
                             for (row, by) in turning.chunks_exact_mut(size).zip(plain.chunks_exact(size)) {
@@ -360,7 +360,7 @@ impl System {
                                 }
                             }
                         }
-                        Chart::Body | Chart::RelativeToDrift(_) => {}
+                        Chart::Body | Chart::RelativeToDrift(..) => {}
                     }
                 }
                 let diagonal = if constraint.is_released(point.at) { -1.0 } else { 0.0 };

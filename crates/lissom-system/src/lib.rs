@@ -12,6 +12,7 @@ mod mass;
 mod output_derivatives;
 mod parameter_difference;
 mod reading;
+mod rotors;
 pub mod schemes;
 pub mod settings;
 pub mod solver_features;

@@ -19,10 +19,12 @@ pub enum SolverFeature {
     StartStresses,
     /// Steps of planned size without solution are bisected.
     StepBisection,
+    /// Increments of rotors are in axes that do not spin.
+    StillAxes,
 }
 
 /// Every feature with its name and its effect.
-pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 7] = [
+pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 8] = [
     (SolverFeature::Prediction, "prediction", "first guesses by linear prediction from earlier steps"),
     (SolverFeature::Secants, "secants", "corrections improved by secants of earlier ones"),
     (SolverFeature::SingleCorrection, "single-correction", "a first correction accepted as the last"),
@@ -38,6 +40,7 @@ pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 7] = [
         "tangents far from equilibrium with the stresses at the start",
     ),
     (SolverFeature::StepBisection, "parts", "steps without solution taken in parts"),
+    (SolverFeature::StillAxes, "still-axes", "motions of rotors in axes that do not spin"),
 ];
 
 /// Their names.

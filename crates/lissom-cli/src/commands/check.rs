@@ -109,6 +109,7 @@ impl Check {
             "constraints": freedom.constraints,
             "independent_constraints": freedom.rank,
             "redundant": freedom.redundant.iter().map(redundant).collect::<Vec<_>>(),
+            "rotors": rotors(&lowered),
             "outputs": lowered.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>(),
             "problems": document.warnings.to_value(),
         });
@@ -155,11 +156,20 @@ fn render(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility
         ("outputs", outputs(lowered)),
     ];
     let assembly = lowered.assembly.as_ref().map(|assembly| ("assembly", assembly.words()));
-    for (name, words) in lines.into_iter().chain(assembly) {
+    let round = rotors(lowered);
+    let round =
+        (!round.is_empty()).then(|| ("rotors", format!("{}, whose spin limits no step", round.join(", "))));
+    for (name, words) in lines.into_iter().chain(assembly).chain(round) {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<10}{words}");
     }
     text
+}
+
+/// Names of the nodes that are symmetric about an axis, with all on them.
+fn rotors(lowered: &Lowered) -> Vec<&str> {
+    let layout = lowered.system.layout();
+    layout.rotors.iter().map(|rotor| layout.node_name(rotor.node)).collect()
 }
 
 fn parts(document: &Document, lowered: &Lowered) -> String {

@@ -136,7 +136,7 @@ impl Adaptive {
             let allowed = share * tolerance.powf(f64::from(order) / f64::from(scheme.order));
             integrator.estimate_error(review.problem, estimate, end, review.has_switched);
             let work = &*integrator.work;
-            let scaled = |row: usize| work.error.filtered[row] * work.units.coordinates[row];
+            let scaled = |row: usize| work.error.at_end[row] * work.units.coordinates[row];
             let positions = relative_size(system, end, scaled, limits(allowed));
             // First-order states, each relative to its magnitude, unfiltered.
             let of = |(row, coordinate, magnitude): (usize, CoordinateId, f64)| {
@@ -211,6 +211,7 @@ impl Control for Adaptive {
         let (size, tuning) = (review.attempt.size, review.problem.settings.limits.tuning);
         self.reviewed = size;
         self.excess = self.excess_of(review);
+
         let is_accurate = self.excess <= 1.0;
         if !is_accurate {
             self.controller.reject(size, self.excess, &tuning);

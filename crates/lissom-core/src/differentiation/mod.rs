@@ -72,7 +72,7 @@ struct Lanes {
 
 impl Sensitivities {
     /// No parameters yet. None if the steps of `base` cannot be differentiated directly: with projected velocities, adaptive step
-    /// size, feedback, or wheels that roll or creep.
+    /// size, feedback, wheels that roll or creep, or rotors.
     pub fn new(base: &Simulation) -> Option<Self> {
         let settings = base.settings();
         let layout = base.system.layout();
@@ -80,6 +80,7 @@ impl Sensitivities {
             && settings.control.is_none()
             && !base.system.has_feedback()
             && layout.of_velocities.is_empty()
+            && base.integrator.work.unit.spins.is_empty()
             && !base.system.sees_multipliers();
         is_known.then(|| Self {
             numbers: Vec::new(),

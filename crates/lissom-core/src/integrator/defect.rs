@@ -19,6 +19,7 @@ use super::{Integrator, dense_output};
 use crate::joints::evaluation_point::{Increments, Point};
 use crate::kinematics::MotionChange;
 use crate::settings::Problem;
+use crate::spin::Axes;
 use crate::system::State;
 
 /// Defects below this multiple of the relative violation at the start are attributed to its correction: the accelerations make the
@@ -56,7 +57,8 @@ impl Integrator {
         let Self { middle, work, scaled, .. } = self;
         let Middle { state, unmoved, unchanged } = &mut **middle;
         let dense = dense_output(work, Problem { system, settings }, (from, to));
-        dense.at(dense.least_determined(), state);
+        let share = dense.least_determined();
+        dense.at(share, state);
         system.violations(&state.kinematics, &mut state.violations);
         let ends = from.violations.iter().zip(&to.violations);
         for (violation, (start, end)) in state.violations.iter_mut().zip(ends) {
@@ -72,8 +74,10 @@ impl Integrator {
             augmentation: scaled.augmentation(),
         };
         let mut residuals = std::mem::take(&mut work.residuals);
+        let axes = Axes::Body(share * (to.kinematics.time - from.kinematics.time));
         for residual in &mut residuals {
             system.residual(&point, residual);
+            work.unit.spins.turn(residual, [axes, Axes::Tangent]);
             residual.iter_mut().zip(work.row_factors()).for_each(|(value, factor)| *value *= factor);
         }
         work.tangent.matrices.solve(&settings.scheme.coupling, &mut residuals);
@@ -81,6 +85,7 @@ impl Integrator {
         let corrected = system.layout().relative_violations(&from.violations, length).fold(0.0, f64::max);
         if let Some(last) = residuals.last_mut() {
             work.tangent.scale(last);
+            work.unit.spins.turn(last, [Axes::Tangent, axes]);
         }
         let sizes = &work.units.coordinates;
         let size = |allowed| {

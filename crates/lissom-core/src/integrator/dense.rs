@@ -13,6 +13,7 @@ use lissom_motion::{Motion, Vector6, inverse_tangent_times, tangent_times};
 use crate::kinematics::{LOCKED, Layout};
 use crate::node_motion::depart;
 use crate::schemes::{Combination, DensePolynomial, Stage};
+use crate::spin::{Departure, Spins};
 use crate::system::State;
 
 /// The motion of a step between two states.
@@ -38,6 +39,8 @@ pub(crate) struct SolvedStages<'s> {
     pub(crate) start_change: &'s [f64],
     /// Multipliers, by stage [N, N m].
     pub(crate) multipliers: &'s [Vec<f64>],
+    /// Nodes whose increments are in axes that do not spin.
+    pub(crate) spins: &'s Spins,
 }
 
 impl DenseOutput<'_> {
@@ -82,7 +85,7 @@ impl DenseOutput<'_> {
 
 impl SolvedStages<'_> {
     fn at(&self, from: &State, to: &State, x: f64, out: &mut State) {
-        let Self { polynomial, table, layout, increments, start_change, multipliers } = *self;
+        let Self { polynomial, table, layout, increments, start_change, multipliers, spins } = *self;
         let (start, end) = (&from.kinematics, &to.kinematics);
         let duration = end.time - start.time;
         let ahead = x * duration;
@@ -115,6 +118,19 @@ impl SolvedStages<'_> {
                 &of_rows(&weights.place, 1.0),
                 [&of_rows(&weights.velocity, per_time), &acceleration],
             );
+        }
+        for spin in spins.iter() {
+            let from = &start.nodes[spin.node()];
+            let of = |combination: &Combination, factor: f64| {
+                spin.by_row(|row| factor * combine(combination, row))
+            };
+            let departure = Departure {
+                place: of(&weights.place, 1.0),
+                rate: of(&weights.velocity, per_time),
+                curvature: weights.acceleration.acceleration * spin.start_curvature(from)
+                    + of(&weights.acceleration, per_square),
+            };
+            (out.kinematics.nodes[spin.node()], _) = spin.depart(from, ahead, &departure);
         }
         let coordinates = out.kinematics.coordinates.iter_mut().zip(&start.coordinates);
         for ((own, from), &row) in coordinates.zip(&layout.coordinate_rows) {

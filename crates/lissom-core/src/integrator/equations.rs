@@ -20,6 +20,7 @@ use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, Sta
 use crate::schemes::{MAX_STAGES, Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
+use crate::spin::Axes;
 use crate::system::{State, StepPoint, System, TangentAssembler};
 
 /// Iterates with a last correction above this, of the representative length or of a longer predicted increment, are far from equilibrium [-].
@@ -55,9 +56,15 @@ impl StepEquations<'_> {
             work.multipliers[i].copy_from_slice(&self.start.multipliers);
         }
         if extrapolates && work.options.disabled.allows(SolverFeature::Prediction) {
-            let [of_increments, of_multipliers] = &work.prediction.predictors;
+            let [of_increments, _] = &work.prediction.predictors;
             of_increments.improve(&mut work.increments);
+            self.turn_multipliers(|_| Axes::Body(0.0), |_| Axes::Still);
+            let work = &mut *self.work;
+            let [_, of_multipliers] = &work.prediction.predictors;
             of_multipliers.improve(&mut work.multipliers);
+            self.turn_multipliers(|_| Axes::Still, Axes::Body);
+        } else {
+            self.turn_multipliers(|_| Axes::Body(0.0), Axes::Body);
         }
         self.update_motions();
     }
@@ -222,13 +229,16 @@ impl StepEquations<'_> {
         let last = self.scheme.stages.len() - 1;
         let mut scratch = self.work.evaluation.scratch.take().unwrap_or_default();
         let mut tangents = std::mem::take(&mut self.work.evaluation.node_tangents);
+        let mut drifts = std::mem::take(&mut self.work.evaluation.drifts);
+        let time = self.scheme.stages[last].abscissa * self.scaled.step_size();
+        self.work.unit.spins.write_drifts(&self.start.kinematics, time, &mut drifts);
         let chart = match self.scheme.parametrization {
             _ if self.corrects_at_iterate() => Chart::Body,
             Parametrization::FromStart | Parametrization::Inertial => {
                 self.whole_increments(last, &mut tangents);
                 Chart::Increments(&tangents)
             }
-            Parametrization::RelativeToDrift => Chart::RelativeToDrift(&self.start.kinematics.nodes),
+            Parametrization::RelativeToDrift => Chart::RelativeToDrift(&self.start.kinematics.nodes, &drifts),
         };
         let mut point = self.point(last);
         if self.is_far() {
@@ -240,6 +250,7 @@ impl StepEquations<'_> {
         }
         self.system.assemble_tangent(&point, chart, &mut scratch, out);
         self.work.evaluation.node_tangents = tangents;
+        self.work.evaluation.drifts = drifts;
         self.work.evaluation.scratch = Some(scratch);
     }
 
@@ -259,8 +270,29 @@ impl StepEquations<'_> {
         }
     }
 
-    /// Replaces residuals in SI by corrections.
+    /// Turns multipliers of rotors from one kind of axes to another, at the time of each stage after the start [s].
+    fn turn_multipliers(&mut self, from: impl Fn(f64) -> Axes, to: impl Fn(f64) -> Axes) {
+        let step = self.scaled.step_size();
+        let Workspace { unit, multipliers, .. } = &mut *self.work;
+        for (stage, own) in self.scheme.stages.iter().zip(multipliers) {
+            let time = stage.abscissa * step;
+            unit.spins.turn_multipliers(own, [from(time), to(time)]);
+        }
+    }
+
+    /// Turns residuals or corrections of rotors likewise.
+    fn turn_residuals(&mut self, from: impl Fn(f64) -> Axes, to: impl Fn(f64) -> Axes) {
+        let step = self.scaled.step_size();
+        let Workspace { unit, residuals, .. } = &mut *self.work;
+        for (stage, own) in self.scheme.stages.iter().zip(residuals) {
+            let time = stage.abscissa * step;
+            unit.spins.turn(own, [from(time), to(time)]);
+        }
+    }
+
+    /// Replaces residuals in SI by corrections, of rotors in axes that do not spin.
     pub(super) fn solve_for_corrections(&mut self) {
+        self.turn_residuals(Axes::Body, |_| Axes::Tangent);
         let work = &mut *self.work;
         for values in &mut work.residuals {
             work.evaluation.processor.dispatch(Multiply { values, factors: &work.units.rows });
@@ -272,6 +304,17 @@ impl StepEquations<'_> {
             for values in &mut work.residuals {
                 work.evaluation.processor.dispatch(Multiply { values, factors });
             }
+        }
+        self.turn_residuals(|_| Axes::Tangent, |_| Axes::Still);
+    }
+
+    /// Turns corrections of multipliers of rotors into the axes of the stages.
+    fn turn_corrections(&mut self) {
+        let step = self.scaled.step_size();
+        let count = self.system.layout().coordinate_count();
+        let Workspace { unit, residuals, .. } = &mut *self.work;
+        for (stage, own) in self.scheme.stages.iter().zip(residuals) {
+            unit.spins.turn_multipliers(&mut own[count..], [Axes::Still, Axes::Body(stage.abscissa * step)]);
         }
     }
 
@@ -550,6 +593,7 @@ impl Equations for StepEquations<'_> {
         if work.options.disabled.allows(SolverFeature::Secants) {
             work.newton.anderson.improve(&mut work.residuals, &work.options.tuning);
         }
+        self.turn_corrections();
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
         self.update_motions();
@@ -563,11 +607,14 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Linearisation);
         self.work.newton.anderson.forget();
         self.linearize();
-        let Workspace { redundancy, tangent, motions, .. } = &mut *self.work;
+        let step = self.scaled.step_size();
+        let Workspace { redundancy, tangent, motions, unit, .. } = &mut *self.work;
+        unit.spins.note_tangent(self.scheme.stages.last().map_or(0.0, |stage| stage.abscissa * step));
         if let Some(reached) = motions.get(self.scheme.stages.len() - 1)
             && redundancy.follow_iterate(self.system, &reached.at)
         {
             tangent.omit(redundancy.omitted());
+            unit.spins.omit(redundancy.omitted());
         }
         self.work.round_off.force = self.force_round_off();
         self.watch.begin(Phase::Factorisation);

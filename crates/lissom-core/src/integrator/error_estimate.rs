@@ -19,10 +19,12 @@
 use lissom_motion::Vector3;
 
 use super::Integrator;
+use super::workspace::Workspace;
 use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId, Quantity, Subject};
 use crate::schemes::ErrorEstimate;
 use crate::settings::Problem;
+use crate::spin::Axes;
 use crate::system::{Drive, System};
 
 /// Motions smaller than this fraction of the model's size are not resolved individually.
@@ -160,6 +162,20 @@ impl Integrator {
         end: &Kinematics,
         has_switched: bool,
     ) {
+        self.filter_error(problem, estimate, end, has_switched);
+        let Workspace { unit, error, .. } = &mut *self.work;
+        let count = error.at_end.len();
+        error.at_end.copy_from_slice(&error.filtered[..count]);
+        unit.spins.turn(&mut error.at_end, [Axes::Tangent, Axes::Body(self.scaled.step_size())]);
+    }
+
+    fn filter_error(
+        &mut self,
+        problem: Problem<'_>,
+        estimate: &ErrorEstimate,
+        end: &Kinematics,
+        has_switched: bool,
+    ) {
         let Problem { system, settings } = problem;
         let scheme = &settings.scheme;
         let work = &mut *self.work;
@@ -178,9 +194,12 @@ impl Integrator {
             // The filter would suppress a motion that the switch has just started, such as an impact on a stiff stop.
             motion.copy_from_slice(&work.error.unfiltered);
             system.layout().states().for_each(|(row, ..)| motion[row] = 0.0);
+            work.unit.spins.turn(motion, [Axes::Still, Axes::Tangent]);
             return;
         }
         inertial_part(system, end, &work.error.unfiltered, motion);
+        // Inertias of rotors are the same in all axes that are turned about theirs.
+        work.unit.spins.turn(motion, [Axes::Still, Axes::Tangent]);
         constraints.fill(0.0);
         work.tangent.scale(&mut work.error.filtered);
         work.tangent.matrices.solve_inertial(&scheme.coupling, &mut work.error.filtered);
@@ -197,6 +216,15 @@ impl Integrator {
         let errors = work.error.unfiltered.iter().zip(&work.error.filtered);
         for (change, (whole, free)) in work.start_change.iter_mut().zip(errors) {
             *change = factor * (whole - free);
+        }
+        for spin in work.unit.spins.iter() {
+            for &row in spin.rows() {
+                work.start_change[row] = factor * work.error.unfiltered[row];
+            }
+            let free = spin.in_still_axes(&work.error.filtered);
+            for (&row, free) in spin.rows().iter().zip(free.iter()) {
+                work.start_change[row] -= factor * free;
+            }
         }
         // Rates of first-order states follow from the states.
         system.layout().states().for_each(|(row, ..)| work.start_change[row] = 0.0);

@@ -37,6 +37,7 @@ use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, ScaleBy, Scaled};
 use crate::schemes::{Combination, StageSystem};
 use crate::settings::{Problem, Settings, Stopwatch, Unwatched};
+use crate::solver_features::SolverFeature;
 use crate::system::{State, System, Threads};
 
 /// The state at which a step begins, and the one before the last step; both are equal before the first step.
@@ -82,6 +83,9 @@ impl Integrator {
             (settings.solver, equilibrated),
         );
         (work.options.disabled, work.options.tuning) = (settings.limits.disabled, settings.limits.tuning);
+        if !work.options.disabled.allows(SolverFeature::StillAxes) {
+            work.unit.spins.clear();
+        }
         work.evaluation.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.tangent.matrices.set_threads(settings.threads);
         work.tangent = work.tangent.falling_back(settings.solver);
@@ -172,6 +176,7 @@ impl Integrator {
         }
         if self.work.redundancy.follow(system, &state.kinematics) {
             self.work.tangent.omit(self.work.redundancy.omitted());
+            self.work.unit.spins.omit(self.work.redundancy.omitted());
             self.jacobian_state = JacobianState::default();
         }
         attempt.size = size;
@@ -249,7 +254,7 @@ impl Integrator {
     /// Updates the retained data after an accepted attempt, which began with these multipliers.
     pub(crate) fn learn(&mut self, settings: &Settings, multipliers: &[f64]) {
         if settings.scheme.dynamic {
-            self.work.learn(&settings.scheme, multipliers);
+            self.work.learn(&settings.scheme, self.scaled.step_size(), multipliers);
         }
         if let Some(history) = &mut self.history {
             history.renew(self.scaled.step_size());
@@ -304,6 +309,7 @@ fn dense_output<'s>(
         increments: &work.increments,
         start_change: &work.start_change,
         multipliers: &work.multipliers,
+        spins: &work.unit.spins,
     });
     DenseOutput { from, to, stages }
 }

@@ -10,12 +10,13 @@ use super::predictor::Predictor;
 use crate::consistent::redundancy::Redundancy;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::starts::JointStarts;
-use crate::kinematics::{Kinematics, LOCKED, Layout, Quantity};
+use crate::kinematics::{AxisSpin, Kinematics, LOCKED, Layout, Quantity};
 use crate::saddle_point::SaddlePoint;
 use crate::saddle_point::stage_tangents::StageTangents;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStepState};
 use crate::schemes::{Parametrization, Scheme};
 use crate::solver_features::DisabledFeatures;
+use crate::spin::Axes;
 use crate::system::{Scratch, State, System, Threads};
 use crate::tuning::Tuning;
 
@@ -36,6 +37,8 @@ pub(crate) struct Prediction {
     pub(crate) predictors: [Predictor; 2],
     /// Whether the next guess is extrapolated.
     pub(crate) extrapolates: bool,
+    /// Multipliers in axes that do not spin, at the start and by stage, if there are such axes.
+    pub(crate) still: Vec<Vec<f64>>,
 }
 
 /// Progress of Newton's method.
@@ -58,8 +61,10 @@ pub(crate) struct Progress {
 pub(crate) struct EstimatedError {
     /// By coordinate row.
     pub(crate) unfiltered: Vec<f64>,
-    /// By row.
+    /// By row; that of nodes whose increments are in axes that do not spin is in axes of the tangent.
     pub(crate) filtered: Vec<f64>,
+    /// By coordinate row, in axes of the nodes at the end.
+    pub(crate) at_end: Vec<f64>,
 }
 
 /// Limits that round-off sets.
@@ -90,6 +95,8 @@ pub(crate) struct EvaluationSpace {
     pub(crate) joint_starts: JointStarts,
     /// Tangent operators of the nodes' increments, for schemes that measure them from the start.
     pub(crate) node_tangents: Vec<IncrementTangent>,
+    /// Drifts of nodes whose increments are in axes that do not spin.
+    pub(crate) drifts: Vec<AxisSpin>,
     pub(crate) scratch: Option<Box<Scratch>>,
     /// For evaluation on several threads, if the system is large.
     pub(crate) threads: Option<Threads>,
@@ -163,8 +170,10 @@ impl Workspace {
             tangent = tangent.equilibrated(layout.size());
         }
         tangent.omit(redundancy.omitted());
+        let mut unit = UnitStepState::new(layout, scheme);
+        unit.spins.omit(redundancy.omitted());
         Self {
-            unit: UnitStepState::new(layout, scheme),
+            unit,
             prediction: Prediction {
                 predicted: vec![vec![0.0; count]; stages],
                 predictors: [
@@ -172,6 +181,7 @@ impl Workspace {
                     Predictor::new(stages, &vec![1.0; layout.multiplier_count]),
                 ],
                 extrapolates: false,
+                still: vec![state.multipliers.clone(); stages + 1],
             },
             increments: vec![vec![0.0; count]; stages],
             start_change: vec![0.0; count],
@@ -191,7 +201,11 @@ impl Workspace {
                 effort: Effort::default(),
                 anderson: Anderson::new(stages, layout.size(), &sizes),
             },
-            error: EstimatedError { unfiltered: vec![0.0; count], filtered: vec![0.0; layout.size()] },
+            error: EstimatedError {
+                unfiltered: vec![0.0; count],
+                filtered: vec![0.0; layout.size()],
+                at_end: vec![0.0; count],
+            },
             round_off: RoundOff { travel: None, force: 0.0, stiffness: vec![0.0; layout.size()] },
             units: Units {
                 coordinates: sizes,
@@ -207,6 +221,7 @@ impl Workspace {
                     }
                     Parametrization::RelativeToDrift => Vec::new(),
                 },
+                drifts: Vec::new(),
                 scratch: Some(Box::default()),
                 threads: None,
                 processor: processor(layout.size()),
@@ -218,7 +233,8 @@ impl Workspace {
     }
 
     /// Records the error of the scheme's first guess; `multipliers` are those at the start of the step.
-    pub(crate) fn learn(&mut self, scheme: &Scheme, multipliers: &[f64]) {
+    /// The step was of this length [s].
+    pub(crate) fn learn(&mut self, scheme: &Scheme, step: f64, multipliers: &[f64]) {
         for (stage, predicted) in scheme.stages.iter().zip(&mut self.prediction.predicted) {
             self.unit.predict(&stage.prediction, predicted);
         }
@@ -228,7 +244,18 @@ impl Workspace {
             |stage| &self.prediction.predicted[stage],
             &self.options.tuning,
         );
-        of_multipliers.learn(&self.multipliers, |_| multipliers, &self.options.tuning);
+        if self.unit.spins.is_empty() {
+            of_multipliers.learn(&self.multipliers, |_| multipliers, &self.options.tuning);
+            return;
+        }
+        let [start, stages @ ..] = &mut self.prediction.still[..] else { return };
+        start.copy_from_slice(multipliers);
+        self.unit.spins.turn_multipliers(start, [Axes::Body(0.0), Axes::Still]);
+        for ((still, found), stage) in stages.iter_mut().zip(&self.multipliers).zip(&scheme.stages) {
+            still.copy_from_slice(found);
+            self.unit.spins.turn_multipliers(still, [Axes::Body(stage.abscissa * step), Axes::Still]);
+        }
+        of_multipliers.learn(stages, |_| start, &self.options.tuning);
     }
 
     /// Records how residuals are to be scaled for the tangent in use.

@@ -18,6 +18,7 @@ use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Problem;
+use crate::spin::Spins;
 use crate::system::{State, System};
 
 /// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions leave some 1e-14.
@@ -44,6 +45,8 @@ pub(crate) struct Judge<'a> {
     pub(crate) checks_energy: bool,
     /// What to change where steps do not resolve the motion.
     remedy: &'static str,
+    /// Nodes whose rotation about an axis steps need not resolve.
+    spins: &'a Spins,
 }
 
 impl<'a> Judge<'a> {
@@ -51,11 +54,11 @@ impl<'a> Judge<'a> {
     pub(crate) fn new(
         Problem { system, settings }: Problem<'a>,
         representative: &'a Representative,
-        redundancy: &'a Redundancy,
+        (redundancy, spins): (&'a Redundancy, &'a Spins),
     ) -> Self {
         let (is_motion, checks_energy) = (settings.scheme.dynamic, settings.energy_check);
         let remedy = settings.resolution_remedy(!system.contacts().is_empty());
-        Self { system, representative, redundancy, is_motion, checks_energy, remedy }
+        Self { system, representative, redundancy, is_motion, checks_energy, remedy, spins }
     }
 }
 
@@ -201,11 +204,11 @@ impl Judge<'_> {
         let (mut fastest, mut node) = (0.0_f64, GROUND);
         let (mut largest, mut change) = ([0.0_f64; 2], [0.0_f64; 2]);
         for (id, (from, to)) in NodeId::enumerate(start.kinematics.nodes.iter().zip(&end.kinematics.nodes)) {
-            let turning = to.twist.fixed_rows::<3>(3).norm_squared();
+            let turning = self.spins.turning(id, &to.twist);
             if turning > fastest {
                 (fastest, node) = (turning, id);
             }
-            let difference = to.twist - from.twist;
+            let difference = self.spins.seen_from_start(id, elapsed, &to.twist) - from.twist;
             largest = [largest[0].max(to.twist.fixed_rows::<3>(0).norm_squared()), largest[1].max(turning)];
             change = [
                 change[0].max(difference.fixed_rows::<3>(0).norm_squared()),

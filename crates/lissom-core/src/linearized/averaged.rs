@@ -94,7 +94,7 @@ pub(super) fn mean_equations(
         for (mean, value) in mean.iter_mut().zip(&residual) {
             *mean += weight * value;
         }
-        system.linearize(&at, Chart::RelativeToDrift(&at.at.nodes), &mut own);
+        system.linearize(&at, Chart::RelativeToDrift(&at.at.nodes, &[]), &mut own);
         own.fold_multipliers();
         if k == 0 {
             parts.clone_from(&own);

@@ -188,7 +188,8 @@ impl<'a> LinearModel<'a> {
         let mut parts = unloaded;
         let (still, unchanged) = nothing(&state.kinematics);
         let point = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &zeros);
-        let chart = if is_at_rest { Chart::Body } else { Chart::RelativeToDrift(&state.kinematics.nodes) };
+        let chart =
+            if is_at_rest { Chart::Body } else { Chart::RelativeToDrift(&state.kinematics.nodes, &[]) };
         system.linearize(&point, chart, &mut parts);
         parts.fold_multipliers();
         redundancy.omit_from(system, &mut parts.constraint);

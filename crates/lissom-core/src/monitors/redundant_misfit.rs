@@ -18,7 +18,7 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
 impl Monitor for RedundantMisfit {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let Integrator { representative, work, .. } = &*step.integrator;
-        let judge = Judge::new(step.problem, representative, &work.redundancy);
+        let judge = Judge::new(step.problem, representative, (&work.redundancy, &work.unit.spins));
         if let Some(warning) = judge.misfit(step.end, step.violation) {
             warn(warnings, warning);
         }

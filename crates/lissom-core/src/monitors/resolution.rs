@@ -167,7 +167,7 @@ impl Monitor for Resolution {
             step.integrator.estimate_error(step.problem, estimate, end, step.has_switched);
         }
         let work = &*step.integrator.work;
-        let errors = work.error.filtered.iter().zip(&work.error.unfiltered).zip(&work.units.coordinates);
+        let errors = work.error.at_end.iter().zip(&work.error.unfiltered).zip(&work.units.coordinates);
         let errors = errors.map(|((filtered, error), size)| [filtered * size, error * size]);
         if is_instant {
             self.note_instant(errors.clone());

@@ -78,7 +78,7 @@ impl Monitor for UnresolvedForces {
         step.integrator.estimate_error(step.problem, estimate, at, false);
         self.displaced.nodes.copy_from_slice(&at.nodes);
         self.displaced.coordinates.copy_from_slice(&at.coordinates);
-        displace(&mut self.displaced, system.layout(), &step.integrator.work.error.filtered, 1.0);
+        displace(&mut self.displaced, system.layout(), &step.integrator.work.error.at_end, 1.0);
         let steps = std::mem::take(&mut self.unexamined);
         let exponent = f64::from(scheme.order + 1) / f64::from(estimate.order);
         // Largest force and largest moment.

@@ -123,7 +123,8 @@ impl Simulation {
         if !self.settings.scheme.dynamic {
             return None;
         }
-        let turning = |node: NodeId| self.state.kinematics.nodes[node].twist.fixed_rows::<3>(3).norm();
+        let spins = &self.integrator.work.unit.spins;
+        let turning = |node: NodeId| spins.turning(node, &self.state.kinematics.nodes[node].twist).sqrt();
         let nodes = self.system.layout().nodes();
         let fastest = nodes.max_by(|&a, &b| turning(a).total_cmp(&turning(b)))?;
         let angle = turning(fastest) * self.integrator.scaled.step_size();

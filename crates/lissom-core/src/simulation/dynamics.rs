@@ -160,7 +160,7 @@ impl Simulation {
     /// If it is invalid.
     pub(crate) fn judge_attempt(&mut self) -> Result<(), StepError> {
         let Integrator { representative, work, .. } = &self.integrator;
-        let judge = Judge::new(self.problem(), representative, &work.redundancy);
+        let judge = Judge::new(self.problem(), representative, (&work.redundancy, &work.unit.spins));
         let start = self.attempt.start(&self.state);
         let (scheme, end) = (&self.settings.scheme, &self.attempt.end);
         let Workspace { motions, multipliers, .. } = &*self.integrator.work;

@@ -296,8 +296,9 @@ impl Simulation {
         let problem = Problem { system: &self.system, settings: &self.settings };
         let resolved = self.stops.longest_resolved(problem, (now, size.min(distance)));
         let resolved = self.longest_resolved_delays(now, resolved);
-        let nodes = &self.state.kinematics.nodes;
-        let fastest = nodes.iter().fold(0.0_f64, |most, node| most.max(node.twist.fixed_rows::<3>(3).norm()));
+        let spins = &self.integrator.work.unit.spins;
+        let turning = |node| spins.turning(node, &self.state.kinematics.nodes[node].twist);
+        let fastest = self.system.layout().nodes().map(turning).fold(0.0_f64, f64::max).sqrt();
         let turn = self.settings.limits.tuning.of(TuningParameter::Safety) * MAX_TURN;
         if fastest > 0.0 { resolved.min(turn / fastest) } else { resolved }
     }

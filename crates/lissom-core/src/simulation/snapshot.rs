@@ -24,7 +24,7 @@ use crate::system::{State, Touch};
 use crate::units::Unit;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 32;
+const VERSION: u32 = 33;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

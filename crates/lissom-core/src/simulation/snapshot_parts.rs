@@ -20,6 +20,8 @@ pub(crate) struct Learned {
     tangent: saddle_point::Learned,
     redundancy: Vec<Selection>,
     force_round_off: f64,
+    /// Angles of rotors at which the tangent was assembled [rad].
+    angles: Vec<f64>,
     /// Nodes that the tangent couples because they have touched.
     coupled: Vec<[usize; 2]>,
 }
@@ -34,6 +36,7 @@ impl Workspace {
             tangent: self.tangent.learned(),
             redundancy: self.redundancy.selections(),
             force_round_off: self.round_off.force,
+            angles: self.unit.spins.angles_of_tangent(),
             coupled: self.contacts.as_ref().map(|contacts| contacts.pattern.couples()).unwrap_or_default(),
         }
     }
@@ -51,6 +54,8 @@ impl Workspace {
         self.newton.backed_off = from.backed_off;
         self.round_off.force = from.force_round_off;
         self.redundancy.restore(&from.redundancy);
+        self.unit.spins.restore(&from.angles);
+        self.unit.spins.omit(self.redundancy.omitted());
         let Some(contacts) = &mut self.contacts else {
             return self.tangent.restore(system.structure(), &from.tangent);
         };

@@ -5,8 +5,8 @@ use lissom_motion::{Vector3, skew};
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
-use crate::kinematics::{Kinematics, NodeId};
+use super::{Capabilities, Element, Load, Symmetric, Tangents, Unknowns, add_block};
+use crate::kinematics::{Kinematics, NodeId, is_along};
 use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, required, unitless};
 
@@ -75,6 +75,11 @@ impl DirectedLoad {
         self.scale.breakpoints()
     }
 
+    /// Whether it is the same however far its node has turned about an axis.
+    pub(super) fn is_symmetric_about(&self, axis: &Vector3) -> bool {
+        !self.follower || is_along(&self.vector, axis)
+    }
+
     /// The load in the node's axes.
     pub(super) fn in_body(&self, at: &Kinematics, node: NodeId) -> Vector3 {
         let load = self.scale.value(at.time) * self.vector;
@@ -116,7 +121,13 @@ impl Element for Force {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { load: Some(self), ..Capabilities::default() }
+        Capabilities { load: Some(self), symmetry: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Symmetric for Force {
+    fn is_symmetric_about(&self, node: NodeId, axis: &Vector3) -> bool {
+        self.node == [node] && is_along(&self.point, axis) && self.load.is_symmetric_about(axis)
     }
 }
 

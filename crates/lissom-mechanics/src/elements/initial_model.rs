@@ -7,6 +7,7 @@ use super::kind::Carried;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, NodeMotion, Quantity, indexed_by};
 use crate::number::Written;
 use crate::registry::ParameterError;
+use crate::round_off::COINCIDENT;
 
 /// Initial state of a node.
 #[derive(Clone, Debug)]
@@ -38,10 +39,6 @@ indexed_by! {
     NodeId: Node;
     CoordinateId: Coordinate;
 }
-
-/// Distance below which a location counts as that of a point mass, relative to 1 m and to its distance from the origin: digits of
-/// a text.
-const COINCIDENT: f64 = 1e-9;
 
 /// The part of a model under construction to which later entries refer.
 #[derive(Clone, Debug)]

@@ -45,7 +45,7 @@ pub use kind::{Attached, ElementKind, Sheave};
 pub use kinds::{LOADS, SPRINGS};
 
 pub use crate::evaluation::capabilities::{
-    Bristle, Capabilities, Deformable, ForceLaws, Load, OwnInertia, Spring, StrainSlopes,
+    Bristle, Capabilities, Deformable, ForceLaws, Load, OwnInertia, Spring, StrainSlopes, Symmetric,
 };
 pub use crate::evaluation::element::{Element, Energy, Tangents, Unknowns, is_same};
 pub use crate::evaluation::limits::{Limit, LimitKind, Place, Validity};

@@ -1,12 +1,12 @@
 //! Moment on a node: dead (fixed direction) or follower (rotating with the node).
 
-use lissom_motion::skew;
+use lissom_motion::{Vector3, skew};
 
 use super::contribution::Contribution;
 use super::force::{DirectedLoad, LOAD_PARAMETERS};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
+use super::{Capabilities, Element, Load, Symmetric, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
 use crate::registry::{ParameterError, Parameters};
@@ -58,7 +58,13 @@ impl Element for Moment {
     }
 
     fn capabilities(&self) -> Capabilities<'_> {
-        Capabilities { load: Some(self), ..Capabilities::default() }
+        Capabilities { load: Some(self), symmetry: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Symmetric for Moment {
+    fn is_symmetric_about(&self, node: NodeId, axis: &Vector3) -> bool {
+        self.node == [node] && self.load.is_symmetric_about(axis)
     }
 }
 

@@ -424,9 +424,16 @@ pub fn through(chart: Chart<'_>, nodes: impl Iterator<Item = (NodeId, usize)>, s
             Chart::Increments(increments) => {
                 through_chart(&mut scratch.stiffness, size, column, &increments[node]);
             }
-            Chart::RelativeToDrift(start) => {
-                let turning = lie_bracket_matrix(&start[node].twist);
+            Chart::RelativeToDrift(start, spinning) => {
                 let Tangents { stiffness, damping, mass, .. } = scratch;
+                if let Some(own) = spinning.iter().find(|own| own.node == node) {
+                    let [of_velocity, of_acceleration, of_place] = own.matrices();
+                    add_columns(stiffness, damping, size, column, &of_velocity);
+                    add_columns(stiffness, mass, size, column, &of_place);
+                    add_columns(damping, mass, size, column, &of_acceleration);
+                    continue;
+                }
+                let turning = lie_bracket_matrix(&start[node].twist);
                 add_columns(stiffness, damping, size, column, &turning);
                 add_columns(damping, mass, size, column, &turning);
             }

@@ -38,6 +38,8 @@ pub struct Capabilities<'e> {
     pub bristle: Option<&'e dyn Bristle>,
     /// Inertia besides that of bodies, which is stored in the system.
     pub inertia: Option<&'e dyn OwnInertia>,
+    /// Symmetry about an axis of a node.
+    pub symmetry: Option<&'e dyn Symmetric>,
     /// Whether it is the inertia of a body, whose forces depend on positions only through the axes in which they are
     /// expressed. Motion that deforms any other element may be faster than steps resolve.
     pub is_body_inertia: bool,
@@ -166,6 +168,13 @@ pub trait Deformable: Element {
     /// Two nodes with the largest relative rotation, and the cosine of half its angle: it cannot distinguish a rotation from the
     /// opposite one.
     fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
+}
+
+/// Elements that may be symmetric about an axis of a node on which they act.
+pub trait Symmetric: Element {
+    /// Whether a rotation of the node about this unit vector in its axes, through its place, changes the axes of the forces on it alone, and
+    /// no force on others.
+    fn is_symmetric_about(&self, node: NodeId, axis: &Vector3) -> bool;
 }
 
 /// Elements with inertia besides that of bodies.

@@ -220,7 +220,7 @@ impl AttachedJoint {
         mu[..self.equations()].copy_from_slice(&point.multipliers[own]);
         let charts = match chart {
             Chart::Increments(tangents) => Some(self.frames.map(|frame| &tangents[frame.node])),
-            Chart::Body | Chart::RelativeToDrift(_) => None,
+            Chart::Body | Chart::RelativeToDrift(..) => None,
         };
         let weights = std::array::from_fn(|k| point.augmentation.relative(joint.equation_quantity(k)));
         self.linearize_as(joint, configuration, &mu, &weights, charts, out);

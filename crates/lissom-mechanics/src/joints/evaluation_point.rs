@@ -2,7 +2,7 @@
 
 use super::derivatives::IncrementTangent;
 use super::starts::JointStarts;
-use crate::kinematics::{Kinematics, MotionChange, NodeMotion, Quantity, Stressed};
+use crate::kinematics::{AxisSpin, Kinematics, MotionChange, NodeMotion, Quantity, Stressed};
 
 /// Changes since the start of the step.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +75,6 @@ pub enum Chart<'a> {
     /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ, T given by node.
     Increments(&'a [IncrementTangent]),
     /// Increments ψ̂ relative to extrapolation with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and δV̇ = δψ̂'' +
-    /// ad_V δψ̂'.
-    RelativeToDrift(&'a [NodeMotion]),
+    /// ad_V δψ̂'. Those of some nodes are in axes that do not spin, see [`AxisSpin`].
+    RelativeToDrift(&'a [NodeMotion], &'a [AxisSpin]),
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::ids::indexed_by;
 use super::subject::Subject;
-use super::{CoordinateId, NodeId};
+use super::{CoordinateId, NodeId, Rotor};
 use crate::kinematics::Quantity;
 
 indexed_by!(NodeId: [u32; 6];);
@@ -72,6 +72,8 @@ pub struct Layout {
     pub states: Vec<(CoordinateId, f64)>,
     /// Multipliers of constraints of velocities, in ascending order.
     pub of_velocities: Vec<usize>,
+    /// Nodes that are symmetric about an axis, with all that is attached to them.
+    pub rotors: Vec<Rotor>,
 }
 
 impl Layout {

@@ -43,7 +43,7 @@ pub(crate) fn check(name: &str, system: &System, mut here: Configuration) {
     let layout = system.layout();
     let pattern = system.pattern();
     let mut linearization = system.empty_linearization();
-    system.linearize(&here.point(0.0), Chart::RelativeToDrift(&here.at.nodes), &mut linearization);
+    system.linearize(&here.point(0.0), Chart::RelativeToDrift(&here.at.nodes, &[]), &mut linearization);
     for column in 0..layout.coordinate_count() {
         let by = |order: usize| {
             difference(|step| {

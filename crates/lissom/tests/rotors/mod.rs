@@ -5,3 +5,4 @@ mod bearings;
 mod campbell;
 mod multiblade;
 mod shaft;
+mod still_axes;

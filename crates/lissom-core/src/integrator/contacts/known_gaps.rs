@@ -22,7 +22,7 @@ pub(super) struct KnownGaps {
 }
 
 impl KnownGaps {
-    /// Of `count` points, of which none has been evaluated.
+    /// Gaps of `count` points, of which none has been evaluated.
     pub(super) fn new(count: usize) -> Self {
         Self { relative: Motion::identity(), way: 0.0, gaps: vec![f64::NEG_INFINITY; count] }
     }

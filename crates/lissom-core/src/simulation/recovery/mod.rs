@@ -31,7 +31,7 @@ use crate::round_off;
 use crate::simulation::Simulation;
 use crate::system::{Need, State, System};
 use crate::tuning::MAX_ITERATIONS;
-use lissom_motion::Motion;
+use lissom_motion::{Motion, Vector3, Vector6, rotation_part, screw, translation_part};
 use matrix::RecoveryMatrix;
 
 /// Predicted change of the next iteration below which it is omitted.
@@ -229,15 +229,18 @@ impl Recovery {
         }
         let square = time * time;
         self.work.stiff.clone_from(&self.work.lacking);
-        if system.has_forces_over_time() {
+        if system.has_forces_over_time() || !system.layout().rotors.is_empty() {
             self.stop(system);
         }
         let depends_on_time = self.depends_on_time(system, time);
-        if depends_on_time {
-            self.subtract_change(system, time, REACH * time, 1);
+        // Derivatives at constant twists of a rotor contain those of dampers by velocities, which turn with it.
+        let has_rotors = !system.layout().rotors.is_empty();
+        if depends_on_time || has_rotors {
+            let reach = if depends_on_time { REACH * time } else { time };
+            self.subtract_change(system, time, reach, 1);
         }
         let Self { matrix, found: Recovered { forces, .. }, work, stages, .. } = self;
-        if !depends_on_time {
+        if !depends_on_time && !has_rotors {
             let speeds = &work.speeds;
             matrix.add_stiffness_product(|row| -square * speeds[row], &mut work.stiff);
         }
@@ -347,11 +350,12 @@ impl Recovery {
         let reach = if self.depends_on_time(system, time) { REACH * time } else { time };
         self.subtract_change(system, time, reach, 2);
         let Self { matrix, work, stages, .. } = self;
-        let Workspace { right, lacking, unbalanced, stiff, accelerations, .. } = work;
+        let Workspace { right, lacking, unbalanced, stiff, accelerations, speeds, .. } = work;
         for (stiff, (lacking, unbalanced)) in stiff.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
             *stiff += lacking - unbalanced;
         }
-        matrix.add_stiffness_product(|row| -square * accelerations[row], stiff);
+        still_rates(system.layout(), speeds, accelerations, right);
+        matrix.add_stiffness_product(|row| -square * right[row], stiff);
         matrix.solve(stiff);
         for _ in 2..*stages {
             for (right, (lacking, unbalanced)) in right.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
@@ -417,12 +421,13 @@ impl Recovery {
         for [shift, first, second] in points {
             moved.clone_from(still);
             if *shift != 0.0 {
-                move_by(layout, side * shift * reach, speeds, moved);
+                move_along(layout, side * shift * reach, speeds, moved);
                 if is_over_time {
                     moved.time = now + side * shift * reach;
                 }
             }
             system.stiff_forces(moved, found);
+            turn_forces(layout, side * shift * reach, speeds, found);
             let weight = scale * if order == 1 { first } else { second };
             sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum += weight * force);
         }
@@ -451,6 +456,43 @@ fn hold_sides(system: &System, switches: &mut Vec<Switch>, at: &mut Kinematics) 
 fn keep_rates(layout: &Layout, at: &Kinematics, accelerations: &mut [f64]) {
     for (row, coordinate, _) in layout.states() {
         accelerations[row] = at.coordinates[coordinate].acceleration;
+    }
+}
+
+/// Rates of twists along the path of [`move_along`], in place of `accelerations`: velocities of a rotor are constant in axes that do not
+/// spin.
+fn still_rates(layout: &Layout, speeds: &[f64], accelerations: &[f64], out: &mut [f64]) {
+    out.copy_from_slice(accelerations);
+    for rotor in &layout.rotors {
+        let rows = layout.rows_of_node(rotor.node);
+        let (spin, still) = rotor.parts(&Vector6::from_fn(|k, _| speeds[rows[k] as usize]));
+        let turned = screw(&spin.cross(&translation_part(&still)), &spin.cross(&rotation_part(&still)));
+        rows.iter().zip(turned.iter()).for_each(|(&row, turned)| out[row as usize] += turned);
+    }
+}
+
+/// Turns forces on rotors, in axes to which these have turned in a time [s], back to axes that do not spin.
+fn turn_forces(layout: &Layout, time: f64, speeds: &[f64], forces: &mut [f64]) {
+    for rotor in &layout.rotors {
+        let rows = layout.rows_of_node(rotor.node);
+        let of = |values: &[f64]| Vector6::from_fn(|k, _| values[rows[k] as usize]);
+        let angle = time * rotor.axis.dot(&rotation_part(&of(speeds)));
+        let turned = rotor.turned(angle, &of(forces));
+        rows.iter().zip(turned.iter()).for_each(|(&row, turned)| forces[row as usize] = *turned);
+    }
+}
+
+/// Moves nodes and coordinates for a time [s] at `speeds`, which are constant in axes of the nodes, or in axes of rotors that do not spin.
+fn move_along(layout: &Layout, time: f64, speeds: &[f64], at: &mut Kinematics) {
+    move_by(layout, time, speeds, at);
+    for rotor in &layout.rotors {
+        let rows = layout.rows_of_node(rotor.node);
+        let twist = Vector6::from_fn(|k, _| speeds[rows[k] as usize]);
+        let (spin, still) = rotor.parts(&twist);
+        let turn = Motion::exponential(&screw(&Vector3::zeros(), &(time * spin)));
+        let instead = Motion::exponential(&(-time * twist)) * Motion::exponential(&(time * still)) * turn;
+        let frame = &mut at.nodes[rotor.node].frame;
+        *frame = *frame * instead;
     }
 }
 

@@ -35,13 +35,13 @@ use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::rolling_contact::on_plane;
 use super::{
-    Capabilities, Element, ForceLaws, Limit, LimitKind, Load, Report, Spring, Tangents, Unknowns, Validity,
-    add_block,
+    Capabilities, Element, ForceLaws, Limit, LimitKind, Load, Report, Spring, Symmetric, Tangents, Unknowns,
+    Validity, add_block,
 };
 use crate::dual::{Dual, Number, cross, dot, sum, times};
 use crate::evaluation::switch_states::{SwitchStates, frozen_branch, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
-use crate::kinematics::{CoordinateId, Kinematics, Subject, Switch};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject, Switch, is_along};
 use crate::ports::Ports;
 use crate::registry::ParameterType::{
     Choice, Coefficients, Direction, DirectionOr, HeightField, NotNegative, Positive,
@@ -439,6 +439,16 @@ fn gradient(value: &Varied, motion: &RelativeMotion, columns: &[Matrix6; 2]) -> 
     gradient
 }
 
+impl Symmetric for Tyre {
+    fn is_symmetric_about(&self, node: NodeId, axis: &Vector3) -> bool {
+        let [base, tip] = self.frames.frames;
+        tip.node == node
+            && base.node != node
+            && is_along(&tip.offset.position, axis)
+            && is_along(&tip.offset.rotation.apply(&self.axis), axis)
+    }
+}
+
 impl Element for Tyre {
     fn unknowns(&self) -> Unknowns<'_> {
         Unknowns { nodes: &self.frames.nodes, coordinates: &self.states, ..Unknowns::default() }
@@ -494,6 +504,7 @@ impl Element for Tyre {
             validity: Some(self),
             laws: Some(self),
             frames: Some(self.frames.frames),
+            symmetry: Some(self),
             ..Capabilities::default()
         }
     }

@@ -30,7 +30,7 @@ class Dynamics(Analysis):
         solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, `"still-axes"`, or nothing.
         output_every: number of steps between records; default: every step, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         statistics_window: part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all; a text, or nothing.
@@ -57,7 +57,7 @@ class Dynamics(Analysis):
     solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts", "still-axes"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
     statistics_window: str | None = None
@@ -87,7 +87,7 @@ class Statics(Analysis):
         solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, `"still-axes"`, or nothing.
         output_every: number of steps between records; default: every step, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         statistics_window: part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all; a text, or nothing.
@@ -107,7 +107,7 @@ class Statics(Analysis):
     solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts", "still-axes"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
     statistics_window: str | None = None
@@ -130,7 +130,7 @@ class Path(Analysis):
         solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, `"still-axes"`, or nothing.
         end: load factor at which the path ends; with `vary` the value at which it ends, which is required then; default 1; a number, or nothing.
         step: first step of the load factor or of the number, default a fiftieth of the range; a number > 0, or nothing.
         steps: maximum number of steps; default 1000; a whole number from 1 to 1000000, or nothing.
@@ -148,7 +148,7 @@ class Path(Analysis):
     solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts", "still-axes"]] | None = None
     end: Number | None = None
     step: Number | None = None
     steps: Count | None = None
@@ -169,7 +169,7 @@ class Buckling(Analysis):
         solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, `"still-axes"`, or nothing.
         count: number of load factors; default 5; a whole number from 1 to 10000, or nothing.
     """
 
@@ -183,7 +183,7 @@ class Buckling(Analysis):
     solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts", "still-axes"]] | None = None
     count: Count | None = None
 
 
@@ -200,7 +200,7 @@ class Modes(Analysis):
         solver: linear solver; `"sparse"`, `"pivoting"`, `"strict"`, or nothing.
         tolerance: tolerance of Newton's iteration, in scaled units, where it is not that of adaptive steps, a thousandth of `relative_tolerance`, or that of the scheme; default 1e-8; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations; default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, `"still-axes"`, or nothing.
         count: number of modes; default 20; a whole number from 1 to 100000, or nothing.
         about: static equilibrium under the loads at the time `start`, or the undeformed state without loads and gravity; default `"static"`; `"static"`, `"undeformed"`, or nothing.
         shift: frequency near which modes are computed; default: the lowest ones [Hz]; a number ≥ 0, or nothing.
@@ -216,7 +216,7 @@ class Modes(Analysis):
     solver: Literal["sparse", "pivoting", "strict"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts", "still-axes"]] | None = None
     count: Count | None = None
     about: Literal["static", "undeformed"] | None = None
     shift: Number | None = None

@@ -25,5 +25,5 @@ words! {
     Side { Both = "both", Tension = "tension", Compression = "compression" }
     SignedSide { Both = "both", Positive = "positive", Negative = "negative" }
     Solver { Sparse = "sparse", Pivoting = "pivoting", Strict = "strict" }
-    Without { Prediction = "prediction", Secants = "secants", SingleCorrection = "single-correction", Account = "account", BackOff = "back-off", StartStresses = "start-stresses", Parts = "parts" }
+    Without { Prediction = "prediction", Secants = "secants", SingleCorrection = "single-correction", Account = "account", BackOff = "back-off", StartStresses = "start-stresses", Parts = "parts", StillAxes = "still-axes" }
 }
