@@ -237,7 +237,7 @@ impl Scaled {
                 }
             }
         }
-        out.spins.begin(&state.kinematics);
+        out.spins.begin(&state.kinematics, self.h);
         for spin in out.spins.iter() {
             let curvature = spin.start_curvature(&state.kinematics.nodes[spin.node()]);
             spin.rows()

@@ -18,6 +18,7 @@
 
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
 
+use crate::judge::MAX_TURN;
 use crate::kinematics::{AxisSpin, Kinematics, LOCKED, Layout, NodeId, NodeMotion, Rotor};
 use crate::node_motion::depart;
 use crate::schemes::{Parametrization, Scheme};
@@ -37,7 +38,7 @@ pub(crate) struct Spin {
     of_tangent: f64,
     /// Whether its equations are all in use.
     is_complete: bool,
-    /// Whether they were at the start of the step: otherwise its increments are those of other nodes.
+    /// Whether increments of the step are in axes that do not spin: otherwise they are those of other nodes.
     is_still: bool,
 }
 
@@ -82,11 +83,11 @@ impl Spin {
         self.rotor.node
     }
 
-    /// Begins a step from this motion.
-    fn begin(&mut self, from: &NodeMotion) {
+    /// Begins a step of `size` [s] from this motion. Where it turns little, other axes gain nothing.
+    fn begin(&mut self, from: &NodeMotion, size: f64) {
         self.angle = self.rotor.angle(&from.frame.rotation);
         self.rate = self.rotor.axis.dot(&rotation_part(&from.twist));
-        self.is_still = self.is_complete;
+        self.is_still = self.is_complete && 32.0 * (size * self.rate).abs() > MAX_TURN;
     }
 
     /// Angle of the drift after `time` [s].
@@ -216,9 +217,9 @@ impl Spins {
         }
     }
 
-    /// Begins a step.
-    pub(crate) fn begin(&mut self, start: &Kinematics) {
-        self.all.iter_mut().for_each(|own| own.begin(&start.nodes[own.rotor.node]));
+    /// Begins a step of `size` [s].
+    pub(crate) fn begin(&mut self, start: &Kinematics, size: f64) {
+        self.all.iter_mut().for_each(|own| own.begin(&start.nodes[own.rotor.node], size));
     }
 
     /// The tangent is assembled `time` [s] after the start of the step.

@@ -7,9 +7,7 @@
 use lissom_mechanics::evaluation::capabilities::Symmetric;
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::{cylindrical, revolute, spherical};
-use lissom_mechanics::kinematics::{
-    CoordinateId, GROUND, Kinematics, LOCKED, NodeId, Rotor, Triple, is_along,
-};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Rotor, Triple, is_along};
 use lissom_mechanics::round_off::COINCIDENT;
 use lissom_motion::{Matrix6, Rotation, Vector3};
 
@@ -19,19 +17,36 @@ impl System {
     /// The rotors of the model, at its start.
     pub fn find_rotors(&self, start: &Kinematics) -> Vec<Rotor> {
         // Forces of touches are at points of the parts.
-        if !self.contacts.is_empty() || self.inertias.is_empty() {
+        if !self.contacts.is_empty() {
+            return Vec::new();
+        }
+        let is_free = |node: &NodeId| self.layout.rows_of_node(*node).iter().all(|&row| row != LOCKED);
+        let about_axes = self.joints().iter().filter(|joint| has_axis(joint));
+        let mut nodes: Vec<NodeId> =
+            about_axes.flat_map(|joint| joint.frames.each_ref().map(|frame| frame.node)).collect();
+        nodes.sort_unstable_by_key(|node| node.index());
+        nodes.dedup();
+        let candidates = nodes.into_iter().filter(is_free).filter_map(|node| self.rotor(node, start));
+        let candidates: Vec<(Rotor, usize)> = candidates.collect();
+        if candidates.is_empty() {
             return Vec::new();
         }
         let attached = self.attached();
-        let is_free = |node: &NodeId| {
-            *node != GROUND && self.layout.rows_of_node(*node).iter().all(|&row| row != LOCKED)
-        };
-        let nodes = self.layout.nodes().filter(is_free);
-        nodes.filter_map(|node| self.rotor(node, attached[node.index()], start)).collect()
+        let is_complete = |(rotor, symmetric): &(Rotor, usize)| attached[rotor.node.index()] == *symmetric;
+        candidates.into_iter().filter(is_complete).map(|(rotor, _)| rotor).collect()
     }
 
-    /// The node as a rotor; none if it is not symmetric. So many elements and joints act on it.
-    fn rotor(&self, node: NodeId, attached: usize, start: &Kinematics) -> Option<Rotor> {
+    /// Rotors on which symmetric springs act.
+    pub fn sprung_rotors(&self) -> Vec<Rotor> {
+        let is_sprung = |rotor: &&Rotor| {
+            let springs = self.elements_with(|own| own.spring.and(own.symmetry));
+            springs.into_iter().any(|spring| spring.is_symmetric_about(rotor.node, &rotor.axis))
+        };
+        self.layout.rotors.iter().filter(is_sprung).cloned().collect()
+    }
+
+    /// The node as a rotor, and how many inertias, joints and elements on it are symmetric; none if an inertia or a joint is not.
+    fn rotor(&self, node: NodeId, start: &Kinematics) -> Option<(Rotor, usize)> {
         let on_node = |joint: &&AttachedJoint| joint.frames.iter().any(|frame| frame.node == node);
         let joints: Vec<&AttachedJoint> = self.joints().iter().filter(on_node).collect();
         let of_joint = joints.iter().find(|joint| has_axis(joint))?;
@@ -50,12 +65,8 @@ impl System {
         }
         let is_symmetric = |element: &&dyn Symmetric| element.is_symmetric_about(node, &axis);
         let symmetric = self.elements_with(|own| own.symmetry).filter(is_symmetric).count();
-        (attached == own.len() + joints.len() + symmetric).then(|| Rotor {
-            node,
-            axis,
-            first: start.nodes[node].frame.rotation,
-            triples,
-        })
+        let first = start.nodes[node].frame.rotation;
+        Some((Rotor { node, axis, first, triples }, own.len() + joints.len() + symmetric))
     }
 
     /// Whether signals depend on the motion of a node, or on the values of these coordinates.

@@ -58,7 +58,7 @@ fn departure(time: f64, curvature: &Vector6) -> Departure {
 #[test]
 fn twist_and_acceleration_are_derivatives_of_the_place() {
     let (mut spins, at) = (spins(), start());
-    spins.begin(&at);
+    spins.begin(&at, 0.1);
     let spin = spins.iter().next().unwrap();
     let from = &at.nodes[spin.node()];
     let curvature = spin.start_curvature(from);
@@ -80,7 +80,7 @@ fn twist_and_acceleration_are_derivatives_of_the_place() {
 #[test]
 fn components_turn_with_the_axes_in_which_they_are() {
     let (mut spins, at) = (spins(), start());
-    spins.begin(&at);
+    spins.begin(&at, 0.1);
     spins.note_tangent(0.2);
     let given: Vec<f64> = (0..11).map(f64::from).collect();
     let mut values = given.clone();
@@ -104,23 +104,23 @@ fn components_turn_with_the_axes_in_which_they_are() {
 #[test]
 fn an_omitted_equation_makes_a_rotor_an_ordinary_node_from_the_next_step_on() {
     let (mut spins, at) = (spins(), start());
-    spins.begin(&at);
+    spins.begin(&at, 0.1);
     spins.omit(&[9]);
     assert_eq!(spins.iter().count(), 1);
     let mut values: Vec<f64> = (0..11).map(f64::from).collect();
     spins.turn(&mut values, [Axes::Body(0.1), Axes::Still]);
     assert_eq!(values[8..], [8.0, 9.0, 10.0]);
-    spins.begin(&at);
+    spins.begin(&at, 0.1);
     assert_eq!(spins.iter().count(), 0);
     spins.omit(&[]);
-    spins.begin(&at);
+    spins.begin(&at, 0.1);
     assert_eq!(spins.iter().count(), 1);
 }
 
 #[test]
 fn derivatives_are_those_of_the_chart() {
     let (mut spins, at) = (spins(), start());
-    spins.begin(&at);
+    spins.begin(&at, 0.1);
     let (time, step) = (0.13, 1e-6);
     let mut drifts = Vec::new();
     spins.write_drifts(&at, time, &mut drifts);

@@ -26,7 +26,7 @@ use crate::consistent::initial_conditions::{
     add_rates, gather_accelerations, gather_rates, scatter_accelerations,
 };
 use crate::integrator::pivoting_unless_augmented;
-use crate::kinematics::{Kinematics, LOCKED, Layout, Switch};
+use crate::kinematics::{Kinematics, LOCKED, Layout, Rotor, Switch};
 use crate::round_off;
 use crate::simulation::Simulation;
 use crate::system::{Need, State, System};
@@ -62,6 +62,8 @@ const REACH: f64 = 0.125;
 /// Recovers velocities, accelerations, multipliers and internal forces for output. The motion itself does not change.
 pub struct Recovery {
     matrix: RecoveryMatrix,
+    /// Rotors on which springs act.
+    rotors: Vec<Rotor>,
     /// Instants at which forces have kinks or jumps as functions of time [s].
     breakpoints: Vec<f64>,
     /// Number of stages of the scheme: resolved vibrations change by (h ω/2) to twice this power, or four.
@@ -116,6 +118,7 @@ impl Recovery {
                 (simulation.representative(), simulation.redundancy().clone()),
                 kind,
             ),
+            rotors: system.sprung_rotors(),
             breakpoints: system.breakpoints(),
             stages: settings.scheme.stages.len(),
             found: Recovered { rates: state.clone(), forces: state.clone() },
@@ -229,12 +232,12 @@ impl Recovery {
         }
         let square = time * time;
         self.work.stiff.clone_from(&self.work.lacking);
-        if system.has_forces_over_time() || !system.layout().rotors.is_empty() {
+        if system.has_forces_over_time() || !self.rotors.is_empty() {
             self.stop(system);
         }
         let depends_on_time = self.depends_on_time(system, time);
         // Derivatives at constant twists of a rotor contain those of dampers by velocities, which turn with it.
-        let has_rotors = !system.layout().rotors.is_empty();
+        let has_rotors = !self.rotors.is_empty();
         if depends_on_time || has_rotors {
             let reach = if depends_on_time { REACH * time } else { time };
             self.subtract_change(system, time, reach, 1);
@@ -349,12 +352,12 @@ impl Recovery {
         self.stop(system);
         let reach = if self.depends_on_time(system, time) { REACH * time } else { time };
         self.subtract_change(system, time, reach, 2);
-        let Self { matrix, work, stages, .. } = self;
+        let Self { matrix, work, stages, rotors, .. } = self;
         let Workspace { right, lacking, unbalanced, stiff, accelerations, speeds, .. } = work;
         for (stiff, (lacking, unbalanced)) in stiff.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
             *stiff += lacking - unbalanced;
         }
-        still_rates(system.layout(), speeds, accelerations, right);
+        still_rates((system.layout(), rotors), speeds, accelerations, right);
         matrix.add_stiffness_product(|row| -square * right[row], stiff);
         matrix.solve(stiff);
         for _ in 2..*stages {
@@ -399,7 +402,7 @@ impl Recovery {
     /// `stiff` -= τ² times the derivative of this order, along the motion with constant twists, of the forces f of elements that may be
     /// stiff: by differences over a reach at rest, so that only forces that depend on positions and time are compared.
     fn subtract_change(&mut self, system: &System, time: f64, reach: f64, order: usize) {
-        let Self { matrix, work, breakpoints, .. } = self;
+        let Self { matrix, work, breakpoints, rotors, .. } = self;
         let layout = system.layout();
         let count = layout.coordinate_count();
         let Workspace { speeds, right: found, change: sum, stiff, still, moved, .. } = work;
@@ -421,13 +424,13 @@ impl Recovery {
         for [shift, first, second] in points {
             moved.clone_from(still);
             if *shift != 0.0 {
-                move_along(layout, side * shift * reach, speeds, moved);
+                move_along((layout, rotors), side * shift * reach, speeds, moved);
                 if is_over_time {
                     moved.time = now + side * shift * reach;
                 }
             }
             system.stiff_forces(moved, found);
-            turn_forces(layout, side * shift * reach, speeds, found);
+            turn_forces((layout, rotors), side * shift * reach, speeds, found);
             let weight = scale * if order == 1 { first } else { second };
             sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum += weight * force);
         }
@@ -461,9 +464,14 @@ fn keep_rates(layout: &Layout, at: &Kinematics, accelerations: &mut [f64]) {
 
 /// Rates of twists along the path of [`move_along`], in place of `accelerations`: velocities of a rotor are constant in axes that do not
 /// spin.
-fn still_rates(layout: &Layout, speeds: &[f64], accelerations: &[f64], out: &mut [f64]) {
+fn still_rates(
+    (layout, rotors): (&Layout, &[Rotor]),
+    speeds: &[f64],
+    accelerations: &[f64],
+    out: &mut [f64],
+) {
     out.copy_from_slice(accelerations);
-    for rotor in &layout.rotors {
+    for rotor in rotors {
         let rows = layout.rows_of_node(rotor.node);
         let (spin, still) = rotor.parts(&Vector6::from_fn(|k, _| speeds[rows[k] as usize]));
         let turned = screw(&spin.cross(&translation_part(&still)), &spin.cross(&rotation_part(&still)));
@@ -472,8 +480,8 @@ fn still_rates(layout: &Layout, speeds: &[f64], accelerations: &[f64], out: &mut
 }
 
 /// Turns forces on rotors, in axes to which these have turned in a time [s], back to axes that do not spin.
-fn turn_forces(layout: &Layout, time: f64, speeds: &[f64], forces: &mut [f64]) {
-    for rotor in &layout.rotors {
+fn turn_forces((layout, rotors): (&Layout, &[Rotor]), time: f64, speeds: &[f64], forces: &mut [f64]) {
+    for rotor in rotors {
         let rows = layout.rows_of_node(rotor.node);
         let of = |values: &[f64]| Vector6::from_fn(|k, _| values[rows[k] as usize]);
         let angle = time * rotor.axis.dot(&rotation_part(&of(speeds)));
@@ -483,9 +491,9 @@ fn turn_forces(layout: &Layout, time: f64, speeds: &[f64], forces: &mut [f64]) {
 }
 
 /// Moves nodes and coordinates for a time [s] at `speeds`, which are constant in axes of the nodes, or in axes of rotors that do not spin.
-fn move_along(layout: &Layout, time: f64, speeds: &[f64], at: &mut Kinematics) {
+fn move_along((layout, rotors): (&Layout, &[Rotor]), time: f64, speeds: &[f64], at: &mut Kinematics) {
     move_by(layout, time, speeds, at);
-    for rotor in &layout.rotors {
+    for rotor in rotors {
         let rows = layout.rows_of_node(rotor.node);
         let twist = Vector6::from_fn(|k, _| speeds[rows[k] as usize]);
         let (spin, still) = rotor.parts(&twist);
