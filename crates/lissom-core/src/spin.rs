@@ -16,12 +16,16 @@
 //! nodes that are not symmetric, solutions are as valid, but tangents serve less long. A drift with a constant twist of the rotor, instead
 //! of S, would not do: its axis would move round a cone once in a revolution, which no step resolves.
 
+use std::f64::consts::PI;
+
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
 
-use crate::judge::MAX_TURN;
 use crate::kinematics::{AxisSpin, Kinematics, LOCKED, Layout, NodeId, NodeMotion, Rotor};
 use crate::node_motion::depart;
 use crate::schemes::{Parametrization, Scheme};
+
+/// A node that rotates in one step by more than a quarter of a turn is not resolved by any of the schemes [rad].
+pub(crate) const MAX_TURN: f64 = 0.5 * PI;
 
 /// A rotor in the present step.
 #[derive(Clone, Debug)]

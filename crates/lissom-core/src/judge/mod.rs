@@ -18,7 +18,7 @@ use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Problem;
-use crate::spin::Spins;
+use crate::spin::{MAX_TURN, Spins};
 use crate::system::{State, System};
 
 /// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions leave some 1e-14.
@@ -28,8 +28,6 @@ const MAX_MISFIT: f64 = 10.0 * GEOMETRIC_TOLERANCE;
 /// Violation above which a warning is given, relative to the representative length, or in radians. Rates of constraints that remain
 /// at the start above this fraction of the largest one contradict each other.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
-/// A node that rotates in one step by more than a quarter of a turn is not resolved by any of the schemes [rad].
-pub(crate) const MAX_TURN: f64 = 0.5 * PI;
 /// Relative rotation of an element's nodes, as a fraction of half a turn, above which it cannot be distinguished from the
 /// opposite one.
 const MAX_RELATIVE_TURN: f64 = 0.9;

@@ -4,10 +4,11 @@ use crate::errors::StepError;
 use crate::errors::step_error::{
     FOR_MANY_TOUCHES, NO_PART_CONVERGES, NO_PART_IS_FINITE, SOFTER, STEPS_THAT_END_THERE,
 };
-use crate::judge::{MAX_TURN, degenerate_joint};
+use crate::judge::degenerate_joint;
 use crate::kinematics::{LOCKED, NodeId, Quantity, Subject};
 use crate::settings::Problem;
 use crate::simulation::Simulation;
+use crate::spin::MAX_TURN;
 
 /// Velocities beyond those of any machine: the speed of light [m/s], and about ten times the fastest rotors [rad/s]. The steps that
 /// resolve a diverging motion become shorter without end.

@@ -6,13 +6,13 @@ use crate::errors::step_error::MORE_TOLERANT;
 use crate::errors::{InitialError, StepError};
 use crate::errors::{Warning, warn};
 use crate::instants;
-use crate::judge::MAX_TURN;
 use crate::settings::{Phase, Problem, StepReport, Stopwatch, Unwatched};
 use crate::simulation::breakpoints::StopTime;
 use crate::simulation::event_detector::LocatedRoot;
 use crate::simulation::events::Verdict;
 use crate::simulation::signal_history::Break;
 use crate::simulation::{EventState, Simulation, cause};
+use crate::spin::MAX_TURN;
 use crate::system::State;
 use crate::tuning::{MAX_ITERATIONS, TuningParameter};
 

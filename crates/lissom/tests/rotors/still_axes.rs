@@ -213,7 +213,7 @@ fn what_is_not_symmetric_stays_as_it_is() {
         (of("[0.004, 0.0025, 0.0025]", "[0.004, 0.0025, 0.0026]"), 0),
         (of("position = [0.01, 0, 0]", "position = [0.01, 0.001, 0]"), 0),
         (of("[outputs.heading]", force), 0),
-        (of("[outputs.heading]", event), 0),
+        (of("[outputs.heading]", event).replace("[outputs.bearing]", "[outputs.held]"), 0),
         (of("[outputs.heading]", axial), 1),
         (RINGS.to_owned(), 1),
     ] {
