@@ -239,11 +239,11 @@ impl Scaled {
         }
         out.spins.begin(&state.kinematics, self.h);
         for spin in out.spins.iter() {
-            let curvature = spin.start_curvature(&state.kinematics.nodes[spin.node()]);
+            let curvature = spin.start_curvature();
             spin.rows()
                 .iter()
                 .zip(curvature.iter())
-                .for_each(|(&row, own)| out.acceleration[row] = square * own);
+                .for_each(|(&row, value)| out.acceleration[row] = square * value);
         }
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&state.kinematics.coordinates) {
             out.velocity[row as usize] = self.h * coordinate.rate;
@@ -318,8 +318,8 @@ impl Scaled {
                 rate: combined(&stage.velocity, self.h),
                 curvature: combined(&stage.acceleration, square),
             };
-            let (node, from) = (spin.node(), &start.kinematics.nodes[spin.node()]);
-            let (motion, change) = spin.depart(from, table.ahead, &departure);
+            let node = spin.node();
+            let (motion, change) = spin.depart(table.ahead, &departure);
             (out.nodes[node], changes[node.index()]) = (motion, MotionChange::of(&change));
         }
         for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {

@@ -18,9 +18,9 @@
 
 use std::f64::consts::PI;
 
-use lissom_motion::{Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
+use lissom_motion::{Motion, Rotation, Vector3, Vector6, rotation_part, screw};
 
-use crate::kinematics::{AxisSpin, Kinematics, LOCKED, Layout, NodeId, NodeMotion, Rotor};
+use crate::kinematics::{AxisSpin, Kinematics, LOCKED, Layout, NodeId, NodeMotion, Rotor, across};
 use crate::node_motion::depart;
 use crate::schemes::{Parametrization, Scheme};
 
@@ -38,6 +38,9 @@ pub(crate) struct Spin {
     angle: f64,
     /// W [rad/s].
     rate: f64,
+    /// Frame of the rotor, and the motion of S, at the start of the step.
+    frame: Motion,
+    still: NodeMotion,
     /// Angle at which the tangent in use was assembled [rad].
     of_tangent: f64,
     /// Whether its equations are all in use.
@@ -64,14 +67,20 @@ impl Spin {
             triples: rotor
                 .triples
                 .iter()
-                .map(|own| layout.coordinate_count() + own.first_multiplier)
+                .map(|triple| layout.coordinate_count() + triple.first_multiplier)
                 .collect(),
             rotor: rotor.clone(),
             angle: 0.0,
             rate: 0.0,
+            frame: Motion::identity(),
+            still: NodeMotion {
+                frame: Motion::identity(),
+                twist: Vector6::zeros(),
+                acceleration: Vector6::zeros(),
+            },
             of_tangent: 0.0,
             is_complete: true,
-            is_still: true,
+            is_still: false,
         };
         let is_free = |rotor: &&Rotor| layout.rows_of_node(rotor.node).iter().all(|&row| row != LOCKED);
         layout.rotors.iter().filter(|_| departs).filter(is_free).map(of).collect()
@@ -90,8 +99,14 @@ impl Spin {
     /// Begins a step of `size` [s] from this motion. Where it turns little, other axes gain nothing.
     fn begin(&mut self, from: &NodeMotion, size: f64) {
         self.angle = self.rotor.angle(&from.frame.rotation);
-        self.rate = self.rotor.axis.dot(&rotation_part(&from.twist));
+        let (axes, twist) = self.rotor.parts(&from.twist);
+        self.rate = self.rotor.axis.dot(&axes);
         self.is_still = self.is_complete && 32.0 * (size * self.rate).abs() > MAX_TURN;
+        let acceleration = from.acceleration + across(&axes, &twist);
+        let [twist, acceleration] =
+            [twist, acceleration].map(|vector| self.rotor.turned(self.angle, &vector));
+        let frame = from.frame * self.turn_by(-self.angle);
+        (self.frame, self.still) = (from.frame, NodeMotion { frame, twist, acceleration });
     }
 
     /// Angle of the drift after `time` [s].
@@ -99,35 +114,27 @@ impl Spin {
         self.angle + self.rate * time
     }
 
-    /// The motion of S at the start.
-    fn still(&self, from: &NodeMotion) -> NodeMotion {
-        let (axes, twist) = self.rotor.parts(&from.twist);
-        let [twist, acceleration] =
-            [twist, from.acceleration + across(&axes, &twist)].map(|own| self.rotor.turned(self.angle, &own));
-        NodeMotion { frame: from.frame * self.turn_by(-self.angle), twist, acceleration }
-    }
-
     fn turn_by(&self, angle: f64) -> Motion {
         Motion::new(Rotation::about_axis(&self.rotor.axis, angle), Vector3::zeros())
     }
 
     /// Second derivative of the increments at the start.
-    pub(crate) fn start_curvature(&self, from: &NodeMotion) -> Vector6 {
-        self.still(from).acceleration
+    pub(crate) fn start_curvature(&self) -> &Vector6 {
+        &self.still.acceleration
     }
 
     /// Motion after `time` [s] from the start, and its change since then.
-    pub(crate) fn depart(&self, from: &NodeMotion, time: f64, departure: &Departure) -> (NodeMotion, Motion) {
-        let (still, angle) = (self.still(from), self.angle_after(time));
+    pub(crate) fn depart(&self, time: f64, departure: &Departure) -> (NodeMotion, Motion) {
+        let angle = self.angle_after(time);
         let Departure { place, rate, curvature } = departure;
-        let reached = depart(&still, time, place, [rate, curvature]);
-        let change = Motion::exponential(&(time * still.twist)) * Motion::exponential(place);
+        let reached = depart(&self.still, time, place, [rate, curvature]);
+        let change = Motion::exponential(&(time * self.still.twist)) * Motion::exponential(place);
         let change = self.turn_by(-self.angle) * change * self.turn_by(angle);
         let axes = self.rate * self.rotor.axis;
         let [twist, acceleration] =
-            [reached.twist, reached.acceleration].map(|own| self.rotor.turned(-angle, &own));
+            [reached.twist, reached.acceleration].map(|vector| self.rotor.turned(-angle, &vector));
         let node = NodeMotion {
-            frame: from.frame * change,
+            frame: self.frame * change,
             twist: twist + screw(&Vector3::zeros(), &axes),
             acceleration: acceleration - across(&axes, &twist),
         };
@@ -143,9 +150,10 @@ impl Spin {
     /// Turns components of equations in axes of the rotor; `first` is the row of the first of `values`.
     fn turn_triples(&self, values: &mut [f64], first: usize, angle: f64) {
         for (&row, triple) in self.triples.iter().zip(&self.rotor.triples) {
-            let own = &mut values[row - first..row - first + 3];
-            let turned = Rotation::about_axis(&triple.axis, angle).apply(&Vector3::from_column_slice(own));
-            own.copy_from_slice(turned.as_slice());
+            let components = &mut values[row - first..row - first + 3];
+            let before = Vector3::from_column_slice(components);
+            let turned = Rotation::about_axis(&triple.axis, angle).apply(&before);
+            components.copy_from_slice(turned.as_slice());
         }
     }
 
@@ -174,11 +182,6 @@ impl Spin {
     }
 }
 
-/// Cross products of both parts of a twist.
-fn across(axes: &Vector3, twist: &Vector6) -> Vector6 {
-    screw(&axes.cross(&translation_part(twist)), &axes.cross(&rotation_part(twist)))
-}
-
 /// All rotors in a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spins {
@@ -205,7 +208,7 @@ impl Spins {
 
     /// Rotors whose increments are in axes that do not spin.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Spin> {
-        self.all.iter().filter(|own| own.is_still)
+        self.all.iter().filter(|spin| spin.is_still)
     }
 
     /// Uses axes that do not spin for no node.
@@ -215,47 +218,47 @@ impl Spins {
 
     /// Excludes rotors of which equations in their axes are among these omitted ones, by unknown, from the next step on.
     pub(crate) fn omit(&mut self, omitted: &[usize]) {
-        for own in &mut self.all {
+        for spin in &mut self.all {
             let is_omitted = |row: &usize| (*row..row + 3).any(|row| omitted.contains(&row));
-            own.is_complete = !own.triples.iter().any(is_omitted);
+            spin.is_complete = !spin.triples.iter().any(is_omitted);
         }
     }
 
     /// Begins a step of `size` [s].
     pub(crate) fn begin(&mut self, start: &Kinematics, size: f64) {
-        self.all.iter_mut().for_each(|own| own.begin(&start.nodes[own.rotor.node], size));
+        self.all.iter_mut().for_each(|spin| spin.begin(&start.nodes[spin.rotor.node], size));
     }
 
     /// The tangent is assembled `time` [s] after the start of the step.
     pub(crate) fn note_tangent(&mut self, time: f64) {
-        self.all.iter_mut().for_each(|own| own.of_tangent = own.angle_after(time));
+        self.all.iter_mut().for_each(|spin| spin.of_tangent = spin.angle_after(time));
     }
 
     /// Drift at a time after the start [s], for derivatives.
-    pub(crate) fn write_drifts(&self, start: &Kinematics, time: f64, out: &mut Vec<AxisSpin>) {
+    pub(crate) fn write_drifts(&self, time: f64, out: &mut Vec<AxisSpin>) {
         out.clear();
-        out.extend(self.iter().map(|own| AxisSpin {
-            node: own.node(),
-            spin: own.rate * own.rotor.axis,
-            drift: own.rotor.turned(-own.angle_after(time), &own.still(&start.nodes[own.node()]).twist),
+        out.extend(self.iter().map(|spin| AxisSpin {
+            node: spin.node(),
+            spin: spin.rate * spin.rotor.axis,
+            drift: spin.rotor.turned(-spin.angle_after(time), &spin.still.twist),
         }));
     }
 
     /// Turns components by row, of the nodes and, if there are so many rows, of equations in their axes.
     pub(crate) fn turn(&self, values: &mut [f64], [from, to]: [Axes; 2]) {
-        for own in self.iter() {
-            let angle = own.angle_in(from) - own.angle_in(to);
-            own.turn_node(values, angle);
-            if values.len() > self.first_multiplier && own.is_complete {
-                own.turn_triples(values, 0, angle);
+        for spin in self.iter() {
+            let angle = spin.angle_in(from) - spin.angle_in(to);
+            spin.turn_node(values, angle);
+            if values.len() > self.first_multiplier && spin.is_complete {
+                spin.turn_triples(values, 0, angle);
             }
         }
     }
 
     /// Turns multipliers, given without the other unknowns.
     pub(crate) fn turn_multipliers(&self, multipliers: &mut [f64], [from, to]: [Axes; 2]) {
-        for own in self.iter().filter(|own| own.is_complete) {
-            own.turn_triples(multipliers, self.first_multiplier, own.angle_in(from) - own.angle_in(to));
+        for spin in self.iter().filter(|spin| spin.is_complete) {
+            spin.turn_triples(multipliers, self.first_multiplier, spin.angle_in(from) - spin.angle_in(to));
         }
     }
 
@@ -264,29 +267,30 @@ impl Spins {
         self.all.is_empty()
     }
 
-    /// The rotor of a node, if its increments are in axes that do not spin.
-    pub(crate) fn of(&self, node: NodeId) -> Option<&Spin> {
-        self.iter().find(|own| own.node() == node)
+    /// The rotor of a node, whose increments are in axes that do not spin in all steps that turn it far: independent of the last step,
+    /// which a restored simulation does not know.
+    fn of(&self, node: NodeId) -> Option<&Spin> {
+        self.all.iter().find(|spin| spin.is_complete && spin.node() == node)
     }
 
     /// Squared angular velocity of a node that steps must resolve [rad²/s²].
     pub(crate) fn turning(&self, node: NodeId, twist: &Vector6) -> f64 {
-        self.of(node).map_or_else(|| rotation_part(twist).norm_squared(), |own| own.rotor.swing(twist))
+        self.of(node).map_or_else(|| rotation_part(twist).norm_squared(), |spin| spin.rotor.swing(twist))
     }
 
     /// A twist at a time after the start [s], of rotors in axes of the start that do not spin.
     pub(crate) fn seen_from_start(&self, node: NodeId, time: f64, twist: &Vector6) -> Vector6 {
-        self.of(node).map_or(*twist, |own| own.rotor.turned(own.rate * time, twist))
+        self.of(node).map_or(*twist, |spin| spin.rotor.turned(spin.rate * time, twist))
     }
 
     /// Angles at which the tangent in use was assembled.
     pub(crate) fn angles_of_tangent(&self) -> Vec<f64> {
-        self.all.iter().map(|own| own.of_tangent).collect()
+        self.all.iter().map(|spin| spin.of_tangent).collect()
     }
 
     /// Restores these angles.
     pub(crate) fn restore(&mut self, angles: &[f64]) {
-        self.all.iter_mut().zip(angles).for_each(|(own, angle)| own.of_tangent = *angle);
+        self.all.iter_mut().zip(angles).for_each(|(spin, angle)| spin.of_tangent = *angle);
     }
 }
 

@@ -39,7 +39,7 @@ impl System {
     /// Rotors on which symmetric springs act.
     pub fn sprung_rotors(&self) -> Vec<Rotor> {
         let is_sprung = |rotor: &&Rotor| {
-            let springs = self.elements_with(|own| own.spring.and(own.symmetry));
+            let springs = self.elements_with(|can| can.spring.and(can.symmetry));
             springs.into_iter().any(|spring| spring.is_symmetric_about(rotor.node, &rotor.axis))
         };
         self.layout.rotors.iter().filter(is_sprung).cloned().collect()
@@ -52,8 +52,8 @@ impl System {
         let of_joint = joints.iter().find(|joint| has_axis(joint))?;
         let frame = of_joint.frames.iter().find(|frame| frame.node == node)?;
         let axis = frame.offset.rotation.apply(&Vector3::z());
-        let own: Vec<_> = self.inertias.iter().filter(|inertia| inertia.node() == node).collect();
-        if own.is_empty() || !own.iter().all(|inertia| is_round(inertia.mass(), &axis)) {
+        let inertias: Vec<_> = self.inertias.iter().filter(|inertia| inertia.node() == node).collect();
+        if inertias.is_empty() || !inertias.iter().all(|inertia| is_round(inertia.mass(), &axis)) {
             return None;
         }
         let mut triples = Vec::new();
@@ -64,17 +64,17 @@ impl System {
             return None;
         }
         let is_symmetric = |element: &&dyn Symmetric| element.is_symmetric_about(node, &axis);
-        let symmetric = self.elements_with(|own| own.symmetry).filter(is_symmetric).count();
+        let symmetric = self.elements_with(|can| can.symmetry).filter(is_symmetric).count();
         let first = start.nodes[node].frame.rotation;
-        Some((Rotor { node, axis, first, triples }, own.len() + joints.len() + symmetric))
+        Some((Rotor { node, axis, first, triples }, inertias.len() + joints.len() + symmetric))
     }
 
     /// Whether signals depend on the motion of a node, or on the values of these coordinates.
     fn is_measured(&self, node: NodeId, coordinates: &[CoordinateId], start: &Kinematics) -> bool {
-        self.signals().measurements.iter().any(|own| {
-            let is_of_axis = own.of.coordinates().iter().any(|other| coordinates.contains(other));
-            own.of.nodes().contains(&node)
-                || is_of_axis && own.gradient(start).by_place.iter().any(|value| *value != 0.0)
+        self.signals().measurements.iter().any(|measured| {
+            let is_of_axis = measured.of.coordinates().iter().any(|other| coordinates.contains(other));
+            measured.of.nodes().contains(&node)
+                || is_of_axis && measured.gradient(start).by_place.iter().any(|value| *value != 0.0)
         })
     }
 }

@@ -120,17 +120,16 @@ impl SolvedStages<'_> {
             );
         }
         for spin in spins.iter() {
-            let from = &start.nodes[spin.node()];
             let of = |combination: &Combination, factor: f64| {
                 spin.by_row(|row| factor * combine(combination, row))
             };
             let departure = Departure {
                 place: of(&weights.place, 1.0),
                 rate: of(&weights.velocity, per_time),
-                curvature: weights.acceleration.acceleration * spin.start_curvature(from)
+                curvature: weights.acceleration.acceleration * *spin.start_curvature()
                     + of(&weights.acceleration, per_square),
             };
-            (out.kinematics.nodes[spin.node()], _) = spin.depart(from, ahead, &departure);
+            (out.kinematics.nodes[spin.node()], _) = spin.depart(ahead, &departure);
         }
         let coordinates = out.kinematics.coordinates.iter_mut().zip(&start.coordinates);
         for ((own, from), &row) in coordinates.zip(&layout.coordinate_rows) {

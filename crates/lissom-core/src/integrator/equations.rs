@@ -20,7 +20,7 @@ use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, Sta
 use crate::schemes::{MAX_STAGES, Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
-use crate::spin::Axes;
+use crate::spin::{Axes, Spins};
 use crate::system::{State, StepPoint, System, TangentAssembler};
 
 /// Iterates with a last correction above this, of the representative length or of a longer predicted increment, are far from equilibrium [-].
@@ -231,7 +231,7 @@ impl StepEquations<'_> {
         let mut tangents = std::mem::take(&mut self.work.evaluation.node_tangents);
         let mut drifts = std::mem::take(&mut self.work.evaluation.drifts);
         let time = self.scheme.stages[last].abscissa * self.scaled.step_size();
-        self.work.unit.spins.write_drifts(&self.start.kinematics, time, &mut drifts);
+        self.work.unit.spins.write_drifts(time, &mut drifts);
         let chart = match self.scheme.parametrization {
             _ if self.corrects_at_iterate() => Chart::Body,
             Parametrization::FromStart | Parametrization::Inertial => {
@@ -272,22 +272,20 @@ impl StepEquations<'_> {
 
     /// Turns multipliers of rotors from one kind of axes to another, at the time of each stage after the start [s].
     fn turn_multipliers(&mut self, from: impl Fn(f64) -> Axes, to: impl Fn(f64) -> Axes) {
-        let step = self.scaled.step_size();
         let Workspace { unit, multipliers, .. } = &mut *self.work;
-        for (stage, own) in self.scheme.stages.iter().zip(multipliers) {
-            let time = stage.abscissa * step;
-            unit.spins.turn_multipliers(own, [from(time), to(time)]);
-        }
+        let stages = (self.scheme, self.scaled.step_size());
+        at_stages(&unit.spins, stages, multipliers, |spins, multipliers, time| {
+            spins.turn_multipliers(multipliers, [from(time), to(time)]);
+        });
     }
 
     /// Turns residuals or corrections of rotors likewise.
     fn turn_residuals(&mut self, from: impl Fn(f64) -> Axes, to: impl Fn(f64) -> Axes) {
-        let step = self.scaled.step_size();
         let Workspace { unit, residuals, .. } = &mut *self.work;
-        for (stage, own) in self.scheme.stages.iter().zip(residuals) {
-            let time = stage.abscissa * step;
-            unit.spins.turn(own, [from(time), to(time)]);
-        }
+        let stages = (self.scheme, self.scaled.step_size());
+        at_stages(&unit.spins, stages, residuals, |spins, residual, time| {
+            spins.turn(residual, [from(time), to(time)]);
+        });
     }
 
     /// Replaces residuals in SI by corrections, of rotors in axes that do not spin.
@@ -310,12 +308,12 @@ impl StepEquations<'_> {
 
     /// Turns corrections of multipliers of rotors into the axes of the stages.
     fn turn_corrections(&mut self) {
-        let step = self.scaled.step_size();
         let count = self.system.layout().coordinate_count();
         let Workspace { unit, residuals, .. } = &mut *self.work;
-        for (stage, own) in self.scheme.stages.iter().zip(residuals) {
-            unit.spins.turn_multipliers(&mut own[count..], [Axes::Still, Axes::Body(stage.abscissa * step)]);
-        }
+        let stages = (self.scheme, self.scaled.step_size());
+        at_stages(&unit.spins, stages, residuals, |spins, corrections, time| {
+            spins.turn_multipliers(&mut corrections[count..], [Axes::Still, Axes::Body(time)]);
+        });
     }
 
     /// Whether corrections move the nodes of the iterate along their axes, see [`iterate`], instead of being added to their increments.
@@ -664,6 +662,21 @@ impl Equations for StepEquations<'_> {
         self.work.newton.before = before;
         self.work.newton.backed_off = true;
         self.update_motions();
+    }
+}
+
+/// Passes the values of every stage with its time after the start [s], if there are rotors.
+fn at_stages(
+    spins: &Spins,
+    (scheme, step): (&Scheme, f64),
+    values: &mut [Vec<f64>],
+    turn: impl Fn(&Spins, &mut [f64], f64),
+) {
+    if spins.is_empty() {
+        return;
+    }
+    for (stage, values) in scheme.stages.iter().zip(values) {
+        turn(spins, values, stage.abscissa * step);
     }
 }
 

@@ -5,6 +5,10 @@ use crate::kinematics::{Kinematics, NodeId, NodeMotion, Rotor, Triple};
 
 const AXIS: [f64; 3] = [0.6, 0.0, 0.8];
 
+fn ground() -> NodeMotion {
+    NodeMotion { frame: Motion::identity(), twist: Vector6::zeros(), acceleration: Vector6::zeros() }
+}
+
 fn spins() -> Spins {
     let rotor = Rotor {
         node: NodeId::first(2).nth(1).unwrap(),
@@ -18,6 +22,8 @@ fn spins() -> Spins {
         rotor,
         angle: 0.0,
         rate: 0.0,
+        frame: Motion::identity(),
+        still: ground(),
         of_tangent: 0.0,
         is_complete: true,
         is_still: true,
@@ -32,12 +38,10 @@ fn start() -> Kinematics {
         twist: Vector6::new(3.0, -1.0, 2.0, 24.1, -0.2, 32.0),
         acceleration: Vector6::new(0.4, 2.0, -1.0, 3.0, 1.0, -2.0),
     };
-    let ground =
-        NodeMotion { frame: Motion::identity(), twist: Vector6::zeros(), acceleration: Vector6::zeros() };
     Kinematics {
         time: 0.0,
         elapsed: 0.0,
-        nodes: vec![ground, node],
+        nodes: vec![ground(), node],
         coordinates: Vec::new(),
         held: Vec::new(),
         multipliers: Vec::new(),
@@ -61,8 +65,8 @@ fn twist_and_acceleration_are_derivatives_of_the_place() {
     spins.begin(&at, 0.1);
     let spin = spins.iter().next().unwrap();
     let from = &at.nodes[spin.node()];
-    let curvature = spin.start_curvature(from);
-    let motion = |time: f64| spin.depart(from, time, &departure(time, &curvature)).0;
+    let curvature = *spin.start_curvature();
+    let motion = |time: f64| spin.depart(time, &departure(time, &curvature)).0;
     let step = 1e-4;
     for time in [0.0, 0.03, 0.11, 0.4] {
         let [before, here, after] = [time - step, time, time + step].map(motion);
@@ -123,10 +127,9 @@ fn derivatives_are_those_of_the_chart() {
     spins.begin(&at, 0.1);
     let (time, step) = (0.13, 1e-6);
     let mut drifts = Vec::new();
-    spins.write_drifts(&at, time, &mut drifts);
+    spins.write_drifts(time, &mut drifts);
     let [of_velocity, of_acceleration, of_place] = drifts[0].matrices();
     let spin = spins.iter().next().unwrap();
-    let from = &at.nodes[spin.node()];
     let one = nalgebra::Matrix6::identity();
     let expected = [[of_velocity, of_place], [one, of_acceleration], [nalgebra::Matrix6::zeros(), one]];
     for (order, expected) in expected.iter().enumerate() {
@@ -136,7 +139,7 @@ fn derivatives_are_those_of_the_chart() {
                 let mut all = [Vector6::zeros(); 3];
                 all[order] = sign * own;
                 let [place, rate, curvature] = all;
-                spin.depart(from, time, &Departure { place, rate, curvature }).0
+                spin.depart(time, &Departure { place, rate, curvature }).0
             };
             let [before, after] = [-1.0, 1.0].map(moved);
             let found = [after.twist - before.twist, after.acceleration - before.acceleration];

@@ -426,8 +426,8 @@ pub fn through(chart: Chart<'_>, nodes: impl Iterator<Item = (NodeId, usize)>, s
             }
             Chart::RelativeToDrift(start, spinning) => {
                 let Tangents { stiffness, damping, mass, .. } = scratch;
-                if let Some(own) = spinning.iter().find(|own| own.node == node) {
-                    let [of_velocity, of_acceleration, of_place] = own.matrices();
+                if let Some(axes) = spinning.iter().find(|axes| axes.node == node) {
+                    let [of_velocity, of_acceleration, of_place] = axes.matrices();
                     add_columns(stiffness, damping, size, column, &of_velocity);
                     add_columns(stiffness, mass, size, column, &of_place);
                     add_columns(damping, mass, size, column, &of_acceleration);

@@ -21,7 +21,7 @@ pub use layout::{Freedoms, LOCKED, Layout, MAX_NODES, USUAL_UNKNOWNS};
 pub use motion::split;
 pub use motion::{CoordinateMotion, GROUND, Kinematics, MotionChange, NodeMotion, Stressed};
 pub use quantity::Quantity;
-pub use rotor::{AxisSpin, Rotor, Triple, is_along};
+pub use rotor::{AxisSpin, Rotor, Triple, across, is_along};
 pub use step_stages::StepStages;
 pub use subject::Subject;
 pub use switch::Switch;

@@ -35,6 +35,11 @@ pub fn is_along(vector: &Vector3, axis: &Vector3) -> bool {
     vector.cross(axis).norm() <= COINCIDENT * vector.norm()
 }
 
+/// Cross products of a vector with both parts of a twist or wrench.
+pub fn across(vector: &Vector3, twist: &Vector6) -> Vector6 {
+    screw(&vector.cross(&translation_part(twist)), &vector.cross(&rotation_part(twist)))
+}
+
 impl Rotor {
     /// Angle about the axis of a node with this rotation: of its twist, which precedes the swing of the axis [rad].
     pub fn angle(&self, rotation: &Rotation) -> f64 {

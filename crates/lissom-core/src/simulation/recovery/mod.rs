@@ -26,12 +26,12 @@ use crate::consistent::initial_conditions::{
     add_rates, gather_accelerations, gather_rates, scatter_accelerations,
 };
 use crate::integrator::pivoting_unless_augmented;
-use crate::kinematics::{Kinematics, LOCKED, Layout, Rotor, Switch};
+use crate::kinematics::{Kinematics, LOCKED, Layout, Rotor, Switch, across};
 use crate::round_off;
 use crate::simulation::Simulation;
 use crate::system::{Need, State, System};
 use crate::tuning::MAX_ITERATIONS;
-use lissom_motion::{Motion, Vector3, Vector6, rotation_part, screw, translation_part};
+use lissom_motion::{Motion, Vector3, Vector6, rotation_part, screw};
 use matrix::RecoveryMatrix;
 
 /// Predicted change of the next iteration below which it is omitted.
@@ -473,19 +473,23 @@ fn still_rates(
     out.copy_from_slice(accelerations);
     for rotor in rotors {
         let rows = layout.rows_of_node(rotor.node);
-        let (spin, still) = rotor.parts(&Vector6::from_fn(|k, _| speeds[rows[k] as usize]));
-        let turned = screw(&spin.cross(&translation_part(&still)), &spin.cross(&rotation_part(&still)));
+        let (spin, still) = rotor.parts(&components(rows, speeds));
+        let turned = across(&spin, &still);
         rows.iter().zip(turned.iter()).for_each(|(&row, turned)| out[row as usize] += turned);
     }
+}
+
+/// Components of a node.
+fn components(rows: &[u32; 6], values: &[f64]) -> Vector6 {
+    Vector6::from_fn(|k, _| values[rows[k] as usize])
 }
 
 /// Turns forces on rotors, in axes to which these have turned in a time [s], back to axes that do not spin.
 fn turn_forces((layout, rotors): (&Layout, &[Rotor]), time: f64, speeds: &[f64], forces: &mut [f64]) {
     for rotor in rotors {
         let rows = layout.rows_of_node(rotor.node);
-        let of = |values: &[f64]| Vector6::from_fn(|k, _| values[rows[k] as usize]);
-        let angle = time * rotor.axis.dot(&rotation_part(&of(speeds)));
-        let turned = rotor.turned(angle, &of(forces));
+        let angle = time * rotor.axis.dot(&rotation_part(&components(rows, speeds)));
+        let turned = rotor.turned(angle, &components(rows, forces));
         rows.iter().zip(turned.iter()).for_each(|(&row, turned)| forces[row as usize] = *turned);
     }
 }
@@ -495,7 +499,7 @@ fn move_along((layout, rotors): (&Layout, &[Rotor]), time: f64, speeds: &[f64], 
     move_by(layout, time, speeds, at);
     for rotor in rotors {
         let rows = layout.rows_of_node(rotor.node);
-        let twist = Vector6::from_fn(|k, _| speeds[rows[k] as usize]);
+        let twist = components(rows, speeds);
         let (spin, still) = rotor.parts(&twist);
         let turn = Motion::exponential(&screw(&Vector3::zeros(), &(time * spin)));
         let instead = Motion::exponential(&(-time * twist)) * Motion::exponential(&(time * still)) * turn;
